@@ -1,4 +1,5 @@
 #include "build_features.h"
+#include "inputs.h"
 
 #include <stdio.h>
 

@@ -7,39 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "ranks.h"
+#include "option/value.h"
+#include "program.h"
 
 static fg_input_options given;
 static unsigned char *bytes;
 
 enum { FIRST_BYTES = 1 << 20 };
-
-bool inputs_is_standard(const char *input)
-{
-  return input && strcmp(input, "-") == 0;
-}
-
-const char *inputs_name(const char *input)
-{
-  return inputs_is_standard(input) ? "standard input" : input;
-}
-
-bool inputs_read_size(double *out, const char *text)
-{
-  static const char letters[] = "KMGT";
-  char *end = NULL;
-  *out = strtod(text, &end);
-  if (end == text || !isfinite(*out))
-    return false;
-  const char *letter = *end ? strchr(letters, *end) : NULL;
-  if (letter && *end) {
-    *out *= pow(1024.0, (double)(letter - letters + 1));
-    ++end;
-  }
-  if (*end == 'B')
-    ++end;
-  return *end == '\0' && *out >= 1.0 && *out < 9e18;
-}
 
 /* Three quarters of the machine's memory. */
 static double default_memory(void)
@@ -85,9 +59,9 @@ static int read_all(void)
   return EXIT_DONE;
 }
 
-static int read_standard_input(void)
+static int read_standard_input(int ranks)
 {
-  if (ranks_count() > 1) {
+  if (ranks > 1) {
     complain("standard input: cannot be an input of several processes");
     advise("Name a file, which each of them reads.");
     return EXIT_FAILED;
@@ -100,14 +74,15 @@ static int read_standard_input(void)
   return read_all();
 }
 
-int inputs_prepare(const input_settings *settings, const char *const *inputs, int count)
+int inputs_prepare(const input_settings *settings, const char *const *inputs, int count,
+                   int ranks)
 {
   given = (fg_input_options){.format = settings->format, .most_memory = default_memory()};
   if (settings->max_memory)
-    inputs_read_size(&given.most_memory, settings->max_memory);
+    value_read_size(&given.most_memory, settings->max_memory);
   for (int k = 0; k < count; ++k)
-    if (inputs_is_standard(inputs[k]))
-      return read_standard_input();
+    if (input_is_standard(inputs[k]))
+      return read_standard_input(ranks);
   return EXIT_DONE;
 }
 
@@ -120,4 +95,14 @@ const unsigned char *inputs_bytes(size_t *size)
 {
   *size = given.size;
   return given.bytes;
+}
+
+int create_context(fg_context **out)
+{
+  if (fg_context_create(out) == FG_STATUS_OK) {
+    inputs_give(*out);
+    return EXIT_DONE;
+  }
+  complain("out of memory");
+  return EXIT_FAILED;
 }

@@ -8,7 +8,8 @@
 /* Stores a command's settings, and reads standard input where it is an input. Refuses a
  * terminal, too many bytes, and standard input with several ranks. Returns an exit
  * code. */
-int inputs_prepare(const input_settings *settings, const char *const *inputs, int count);
+int inputs_prepare(const input_settings *settings, const char *const *inputs, int count,
+                   int ranks);
 
 /* Passes these to a context (fg_context_set_input). */
 void inputs_give(fg_context *context);
@@ -16,12 +17,7 @@ void inputs_give(fg_context *context);
 /* Bytes of standard input; NULL where no input is "-". */
 const unsigned char *inputs_bytes(size_t *size);
 
-bool inputs_is_standard(const char *input);
-
-/* Name of an input in messages. */
-const char *inputs_name(const char *input);
-
-/* Parses a number of bytes, at least 1: "500M", "1.5GB", "2e9". False for other text. */
-bool inputs_read_size(double *out, const char *text);
+/* Creates a context with these, or prints an error. Returns an exit code. */
+int create_context(fg_context **out);
 
 #endif

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "inputs.h"
 #include "program.h"
 
 enum { TEXT_BYTES = 2048 }; /* longest message of a context */
@@ -101,6 +100,16 @@ static void advise_in_a_sentence(const char *hint)
          is_ended ? "" : ".");
 }
 
+bool input_is_standard(const char *input)
+{
+  return input && strcmp(input, "-") == 0;
+}
+
+const char *input_name(const char *input)
+{
+  return input_is_standard(input) ? "standard input" : input;
+}
+
 int complain_of(const fg_context *context, fg_status status, const char *file)
 {
   return complain_of_partial(context, status, file, file);
@@ -109,7 +118,7 @@ int complain_of(const fg_context *context, fg_status status, const char *file)
 int complain_of_partial(const fg_context *context, fg_status status, const char *partial,
                         const char *file)
 {
-  file = inputs_name(file);
+  file = input_name(file);
   const char *message = fg_context_message(context);
   const char *hint = fg_context_hint(context);
   if (!*message)
@@ -142,18 +151,8 @@ void report_infinite(const char *file, const fg_field *field)
 {
   size_t count = fg_field_infinite(field);
   if (count > 0)
-    complain("%s: %zu %s infinite and count%s as missing", inputs_name(file), count,
+    complain("%s: %zu %s infinite and count%s as missing", input_name(file), count,
              count == 1 ? "sample is" : "samples are", count == 1 ? "s" : "");
-}
-
-int create_context(fg_context **out)
-{
-  if (fg_context_create(out) == FG_STATUS_OK) {
-    inputs_give(*out);
-    return EXIT_DONE;
-  }
-  complain("out of memory");
-  return EXIT_FAILED;
 }
 
 static char *join(const char *first, const char *between, const char *second)

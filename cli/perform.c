@@ -78,7 +78,7 @@ static int prepare_inputs(const any_settings *settings, const cli_command *comma
     memcpy(&input, place + command->operand_place, sizeof input);
   input_settings given;
   memcpy(&given, place + command->group[GROUP_INPUTS], sizeof given);
-  return inputs_prepare(&given, &input, 1);
+  return inputs_prepare(&given, &input, 1, ranks_count());
 }
 
 int program_perform(int argc, char **argv)

@@ -26,6 +26,10 @@ const char *clean_text(char out[CLEAN_BYTES], const char *text);
 const char *last_complaint(void);
 const char *last_advice(void);
 
+/* Whether an input is standard input, and the name of an input in messages. */
+bool input_is_standard(const char *input);
+const char *input_name(const char *input);
+
 /* Prints a context's message and hint, after `file` unless the message begins with
  * another file's name; returns the exit code of the failure. */
 int complain_of(const fg_context *context, fg_status status, const char *file);
@@ -45,9 +49,6 @@ int complain_of_memory(const char *what);
 /* Prints how many samples of a field are missing because they are infinite, if any
  * are. */
 void report_infinite(const char *file, const fg_field *field);
-
-/* Creates a context, or prints an error. Returns an exit code. */
-int create_context(fg_context **out);
 
 /* Concatenates two texts, or a folder and a name with a slash between. NULL without
  * memory. To be freed. */

@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "inputs.h"
 #include "launch.h"
 #include "program.h"
 

@@ -252,7 +252,7 @@ static void add_file(const char **library, size_t *size, const char *path)
 {
   char start[HEADING_BYTES];
   struct stat about;
-  if (inputs_is_standard(path)) {
+  if (input_is_standard(path)) {
     add_standard_input(library, size);
     return;
   }
@@ -281,11 +281,11 @@ static int complain_of_child(const char *input, const char *library,
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
   else if (outcome->signal == SIGXCPU)
-    complain("%s: damaged: reading it takes more than %u s", inputs_name(input),
+    complain("%s: damaged: reading it takes more than %u s", input_name(input),
              bounds->seconds);
   else
     complain("%s: damaged: the %s library does not survive reading it (signal %d)",
-             inputs_name(input), library, outcome->signal);
+             input_name(input), library, outcome->signal);
   if (outcome->advice[0])
     advise("%s", outcome->advice);
   return EXIT_FAILED;

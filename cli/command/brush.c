@@ -4,6 +4,7 @@
 #include "command/command.h"
 #include "folder/file.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "option/settings.h"
 #include "progress.h"

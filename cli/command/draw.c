@@ -4,12 +4,13 @@
 
 #include "build_features.h"
 #include "command/command.h"
+#include "drawn/background.h"
 #include "drawn/panels.h"
 #include "folder/file.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "option/validation.h"
-#include "run/background.h"
 #include "series/series.h"
 
 /* Refuses options of pictures for solids. */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "command/command.h"
+#include "inputs.h"
 #include "option/table.h"
 #include "sandbox.h"
 

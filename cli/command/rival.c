@@ -8,6 +8,7 @@
 #include "command/command.h"
 #include "folder/file.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "option/table.h"
 #include "option/validation.h"
 #include "sandbox.h"

@@ -5,6 +5,7 @@
 #include "command/command.h"
 #include "folder/file.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "option/settings.h"
 
 static bool name_is_known(const char *name)

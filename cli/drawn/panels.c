@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "drawn/background.h"
 #include "folder/file.h"
 #include "folder/files.h"
-#include "run/background.h"
-#include "series/index.h"
+#include "report/series_index.h"
 
 /* Allocates each run by itself, as scales point to it. */
 static int add_run(drawn_panels *out, const char *folder)

@@ -5,11 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "drawn/background.h"
 #include "folder/file.h"
-#include "inputs.h"
+#include "folder/scale_files.h"
 #include "option/validation.h"
-#include "run/background.h"
-#include "run/scale_files.h"
 #include "sandbox.h"
 
 int drawn_run_open(drawn_run *out, const char *folder)
@@ -99,7 +98,7 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   if (run->field)
     return EXIT_DONE;
   const char *input = settings->input ? settings->input : report->input;
-  if (!settings->input && inputs_is_standard(input)) {
+  if (!settings->input && input_is_standard(input)) {
     complain("%s: its input was standard input, which is gone", run->folder);
     advise("Say with --input where the field is now.");
     return EXIT_FAILED;

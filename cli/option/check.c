@@ -2,7 +2,6 @@
 
 #include <string.h>
 
-#include "inputs.h"
 #include "option/value.h"
 
 /* A word that is unlikely to be a file's name is a misspelt energy. */
@@ -142,7 +141,7 @@ static bool check_picture(const picture_settings *settings, const cli_command *c
 static bool check_inputs(const input_settings *settings, const cli_command *command)
 {
   double size;
-  return !settings->max_memory || inputs_read_size(&size, settings->max_memory) ||
+  return !settings->max_memory || value_read_size(&size, settings->max_memory) ||
          usage_error(command,
                      "--max-memory %s: no number of bytes; say 500M or 2G, for example",
                      settings->max_memory);

@@ -359,3 +359,20 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
   }
   return true;
 }
+
+bool value_read_size(double *out, const char *text)
+{
+  static const char letters[] = "KMGT";
+  char *end = NULL;
+  *out = strtod(text, &end);
+  if (end == text || !isfinite(*out))
+    return false;
+  const char *letter = *end ? strchr(letters, *end) : NULL;
+  if (letter && *end) {
+    *out *= pow(1024.0, (double)(letter - letters + 1));
+    ++end;
+  }
+  if (*end == 'B')
+    ++end;
+  return *end == '\0' && *out >= 1.0 && *out < 9e18;
+}

@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "folder/files.h"
-#include "inputs.h"
 #include "option/recorded.h"
 #include "option/table.h"
 
@@ -124,7 +123,7 @@ bool report_has_page(const char *folder)
 /* The same file can have several paths; synth:NAME has none. */
 static bool same_input(const cJSON *input, const char *operand)
 {
-  char *absolute = inputs_is_standard(operand) ? NULL : realpath(operand, NULL);
+  char *absolute = input_is_standard(operand) ? NULL : realpath(operand, NULL);
   const char *earlier = text_of(input, "absolute");
   const char *name = text_of(input, "path");
   bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
@@ -139,7 +138,7 @@ bool report_same_input(const void *input, const char *operand, const char *folde
     return true;
   const char *earlier = text_of(input, "path");
   complain("%s: holds the results of a run on %s", folder,
-           earlier ? inputs_name(earlier) : "another input");
+           earlier ? input_name(earlier) : "another input");
   advise("Choose another folder with -o, or replace its results with --force.");
   return false;
 }

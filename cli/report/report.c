@@ -9,11 +9,10 @@
 #include <string.h>
 
 #include "folder/files.h"
-#include "inputs.h"
+#include "folder/scale_files.h"
 #include "option/recorded.h"
 #include "option/table.h"
 #include "report/communication.h"
-#include "run/scale_files.h"
 
 static void add_text(cJSON *object, const char *name, const char *text)
 {
@@ -55,7 +54,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   const fg_field_arrays *field = fg_field_contents(facts->field);
   cJSON *input = cJSON_AddObjectToObject(root, "input");
   add_text(input, "path", settings->reading.input);
-  const bool standard = inputs_is_standard(settings->reading.input);
+  const bool standard = input_is_standard(settings->reading.input);
   char *absolute = standard ? NULL : realpath(settings->reading.input, NULL);
   add_text(input, "absolute", absolute);
   free(absolute);

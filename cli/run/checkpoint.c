@@ -9,11 +9,11 @@
 #include <string.h>
 
 #include "folder/files.h"
+#include "folder/scale_files.h"
 #include "option/recorded.h"
 #include "option/table.h"
 #include "ranks.h"
 #include "report/coarsening.h"
-#include "run/scale_files.h"
 
 /* cJSON may write only 15 digits of a number. */
 static void add_exact(cJSON *object, const char *name, double value)

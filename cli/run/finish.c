@@ -6,10 +6,9 @@
 #include <string.h>
 
 #include "folder/files.h"
-#include "inputs.h"
+#include "folder/scale_files.h"
 #include "ranks.h"
 #include "run/page.h"
-#include "run/scale_files.h"
 
 /* Interval of checks of the drawing's progress. */
 static const double seconds_between_looks = 0.2;
@@ -22,7 +21,7 @@ bool finish_can_go_on(const cli_run *run)
 
 static int complain_of_no_scale(const cli_run *run)
 {
-  const char *operand = inputs_name(run->settings->reading.input);
+  const char *operand = input_name(run->settings->reading.input);
   const fg_step *step = &run->step;
   if (run->facts.ended == FG_RUN_STOPPED) {
     complain("%s: interrupted at t = %.3g, before the first scale%s", operand, step->time,
@@ -116,7 +115,7 @@ static void warn_of_few_clusters(const cli_run *run)
   if (first > wanted / 2)
     return;
   complain("%s: no scale of about %d clusters: the first that could be counted were %d",
-           inputs_name(settings->reading.input), wanted, first);
+           input_name(settings->reading.input), wanted, first);
   advise("More --nodes begin with more clusters.");
 }
 
@@ -127,7 +126,7 @@ static int report_outcome(const cli_run *run)
   const int *wanted = run->record.wanted, next = run->record.next;
   if (run->facts.ended == FG_RUN_STATIONARY && next < run->record.count)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
-             inputs_name(settings->reading.input), wanted[next], run->step.clusters);
+             input_name(settings->reading.input), wanted[next], run->step.clusters);
   if (run->facts.ended != FG_RUN_STOPPED) {
     warn_of_few_clusters(run);
     return EXIT_DONE;
@@ -139,7 +138,7 @@ static int report_outcome(const cli_run *run)
   else
     snprintf(reached, sizeof reached, "with %d clusters", run->step.clusters);
   complain("%s: interrupted at t = %.3g %s; the %d scale%s until then %s in %s",
-           inputs_name(settings->reading.input), run->step.time, reached, count,
+           input_name(settings->reading.input), run->step.time, reached, count,
            count == 1 ? "" : "s", count == 1 ? "is" : "are", settings->output);
   return EXIT_INTERRUPTED;
 }

@@ -61,7 +61,7 @@ static void print_choice(const char *file, const char *kind, int index, int coun
 {
   char text[CLEAN_BYTES];
   if (count > 1)
-    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", inputs_name(file), kind,
+    fprintf(stderr, "flowgrain: %s: %s %d of 0 to %d%s%s\n", input_name(file), kind,
             index, count - 1, words ? ": " : "", clean_text(text, words ? words : ""));
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "run/scale_files.h"
+#include "folder/scale_files.h"
 
 /* In 2D: bounds of the page's largest number of arrows, and upper bound of its
  * smallest. */

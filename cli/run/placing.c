@@ -1,6 +1,6 @@
 #include "run/placing.h"
 
-#include "run/scale_files.h"
+#include "folder/scale_files.h"
 
 fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *icons)
 {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "command/command.h"
+#include "drawn/background.h"
 #include "folder/files.h"
 #include "folder/made.h"
 #include "inputs.h"
@@ -15,7 +16,6 @@
 #include "report/coarsening.h"
 #include "report/communication.h"
 #include "report/past_run.h"
-#include "run/background.h"
 #include "run/checkpoint.h"
 #include "run/evolving.h"
 #include "run/finish.h"

@@ -5,9 +5,9 @@
 #include <unistd.h>
 
 #include "build_features.h"
+#include "drawn/background.h"
+#include "folder/scale_files.h"
 #include "progress.h"
-#include "run/background.h"
-#include "run/scale_files.h"
 
 char *scale_path(const scale_maker *maker, int index, const char *end)
 {

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
+#include "folder/scale_files.h"
 #include "ranks.h"
-#include "run/scale_files.h"
 
 /* Whether a feature needs the whole density. */
 static bool needs_all(const cli_run *run)

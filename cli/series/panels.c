@@ -5,20 +5,16 @@
 #include <string.h>
 
 #include "build_features.h"
+#include "drawn/background.h"
 #include "drawn/panels.h"
 #include "folder/files.h"
 #include "folder/made.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "option/table.h"
-#include "run/background.h"
 
 /* With more members panels are too small to read at a picture's width. */
 enum { MOST_MEMBERS = 12 };
-
-void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format)
-{
-  snprintf(out, PANELS_NAME_BYTES, "panels-%02d.%s", scale % 100, format);
-}
 
 /* "panels-NN." and a format, up to `end`. */
 static bool is_name(const char *name, size_t end)

@@ -3,14 +3,10 @@
 #ifndef SERIES_PANELS_H
 #define SERIES_PANELS_H
 
-#include "series/index.h"
+#include "report/series_index.h"
 
-/* "panels-00.svg" of the finest scale. */
-enum { PANELS_NAME_BYTES = 24 };
-void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format);
-
-/* Prints an error if DIR has a file with such a name that no series has made. Returns an
- * exit code. */
+/* Prints an error if DIR has a file with the name of a figure that no series has made.
+ * Returns an exit code. */
 int panels_refuse_foreign(const char *folder);
 
 /* Removes the figures that DIR/series.json names, and temporary files of a killed run.

@@ -80,7 +80,7 @@ static int find_defaults(int *level, fg_context *context,
   *level = settings->level_text ? 0 : defaults.level;
   if (defaults.absent[0] && !quiet)
     fprintf(stderr, "flowgrain: %s: its coordinates are not in the file: %s\n",
-            inputs_name(settings->input), clean_text(words, defaults.absent));
+            input_name(settings->input), clean_text(words, defaults.absent));
   return EXIT_DONE;
 }
 

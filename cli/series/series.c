@@ -8,14 +8,16 @@
 
 #include "folder/made.h"
 #include "folder/results.h"
+#include "inputs.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "ranks.h"
+#include "report/series_index.h"
 #include "sandbox.h"
-#include "series/index.h"
 #include "series/panels.h"
 
-void series_member_name(char out[MEMBER_NAME_BYTES], const chosen_places *places,
+/* The name of a member's folder: "time-0011", "level-003", "time-0011-level-003". */
+static void name_member(char out[MEMBER_NAME_BYTES], const chosen_places *places,
                         int time, int level)
 {
   char level_name[MEMBER_NAME_BYTES / 2] = "";
@@ -28,11 +30,6 @@ void series_member_name(char out[MEMBER_NAME_BYTES], const chosen_places *places
     snprintf(out, MEMBER_NAME_BYTES, "%s", level_name);
 }
 
-bool series_is_there(const char *folder)
-{
-  return file_is_there(folder, SERIES_NAME);
-}
-
 int series_refuse(const char *folder)
 {
   if (!series_is_there(folder))
@@ -42,9 +39,15 @@ int series_refuse(const char *folder)
   return EXIT_FAILED;
 }
 
-static int list_members(series_index *out)
+static const char *words_of(const fg_axis_value *values, int index)
 {
-  const fg_selection *time = &out->places->time, *level = &out->places->level;
+  return values ? values[index].words : NULL;
+}
+
+static int list_members(series_index *out, const chosen_places *places)
+{
+  const fg_selection *time = &places->time, *level = &places->level;
+  const fg_inventory_vector *vector = places->vector;
   out->member = calloc((size_t)time->count * (size_t)level->count, sizeof *out->member);
   if (!out->member)
     return complain_of_memory("a series");
@@ -53,7 +56,11 @@ static int list_members(series_index *out)
       series_member *member = &out->member[out->count++];
       member->time = time->index[t];
       member->level = level->index[l];
-      series_member_name(member->name, out->places, member->time, member->level);
+      name_member(member->name, places, member->time, member->level);
+      if (vector) {
+        member->time_words = words_of(vector->time_value, member->time);
+        member->level_words = words_of(vector->level_value, member->level);
+      }
     }
   return EXIT_DONE;
 }
@@ -240,8 +247,8 @@ static int do_members(series_index *index, int (*run)(const run_settings *settin
 int series_run(const run_settings *settings, const chosen_places *places,
                int (*run)(const run_settings *settings))
 {
-  series_index index = {.settings = settings, .places = places};
-  int code = ranks_agree(list_members(&index));
+  series_index index = {.settings = settings};
+  int code = ranks_agree(list_members(&index, places));
   if (!code)
     code = ranks_agree(ranks_leader() ? begin(&index) : EXIT_DONE);
   if (!code)

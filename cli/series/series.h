@@ -5,18 +5,6 @@
 
 #include "series/places.h"
 
-/* The index in DIR. */
-#define SERIES_NAME "series.json"
-
-enum { MEMBER_NAME_BYTES = 48 };
-
-/* Name of a member's folder in DIR: "time-0011", "level-003", "time-0011-level-003". */
-void series_member_name(char out[MEMBER_NAME_BYTES], const chosen_places *places,
-                        int time, int level);
-
-/* Whether a folder contains a series. */
-bool series_is_there(const char *folder);
-
 /* Refuses the folder of a series for a single run. Returns an exit code. */
 int series_refuse(const char *folder);
 

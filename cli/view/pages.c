@@ -9,7 +9,6 @@
 
 #include "folder/file.h"
 #include "folder/results.h"
-#include "inputs.h"
 
 /* Larger files are not pages. */
 enum { MOST_BYTES = 1 << 28 };
@@ -98,7 +97,7 @@ static void give_state(cli_answer *out, const view_pages *pages, const char *fol
   const cli_child *child = pages->child;
   char clean[CLEAN_BYTES];
   cJSON *state = cJSON_CreateObject();
-  cJSON_AddStringToObject(state, "input", clean_text(clean, inputs_name(pages->input)));
+  cJSON_AddStringToObject(state, "input", clean_text(clean, input_name(pages->input)));
   cJSON_AddBoolToObject(state, "ended", !child->process);
   cJSON_AddBoolToObject(state, "page",
                         !child->process && file_is_there(folder, VIEW_NAME));

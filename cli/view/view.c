@@ -12,7 +12,7 @@
 #include "option/value.h"
 #include "ranks.h"
 #include "report/past_run.h"
-#include "series/series.h"
+#include "report/series_index.h"
 #include "view/browser.h"
 #include "view/child.h"
 #include "view/pages.h"
@@ -105,7 +105,7 @@ static int report_end(const cli_view *view)
     line.drawn = line.shown; /* drawn by the run */
     progress_wipe(&line);
     complain("%s: interrupted; nothing of its run is kept without -o DIR",
-             inputs_name(input));
+             input_name(input));
   }
   return view->child.code ? view->child.code : EXIT_INTERRUPTED;
 }
@@ -123,7 +123,7 @@ static int prepare(cli_view *view)
     view->child = (cli_child){.socket = -1, .folder = input};
     return report_has_page(input) ? EXIT_DONE : refuse_folder(input);
   }
-  int code = inputs_prepare(&run.inputs, &input, 1);
+  int code = inputs_prepare(&run.inputs, &input, 1, ranks_count());
   if (run.formats && !(run.formats & (FORMAT_SVG | FORMAT_PNG)))
     run.formats |= FORMAT_PNG; /* a page cannot show PDF */
   return code ? code : child_start(&view->child, &run, end_server, view->server);

@@ -68,12 +68,6 @@ FG_API fg_status fg_require_feature(fg_context *context, const char *what,
 /* Returns the standard word for a status, "malformed file" for example. */
 FG_API const char *fg_status_name(fg_status status);
 
-/* For messages that suggest a known word: whether `typed` is at most one edit from it,
- * two for words of more than four letters. An edit inserts, deletes or replaces a letter,
- * or exchanges two neighbours (optimal string alignment). False for NULL, and for words
- * of more than 31 bytes. */
-FG_API bool fg_word_is_near(const char *typed, const char *known);
-
 /* Makes a context: the place of messages and of the stop flag. MEMORY. */
 FG_API fg_status fg_context_create(fg_context **out);
 FG_API void fg_context_destroy(fg_context *context);

@@ -10,6 +10,8 @@ from typing import Any, Hashable
 import numpy as np
 import xarray as xr
 
+from ._dataset import role_of
+
 FRAMES = ("auto", "east", "grid")
 # on which side of a centre the face of the same index lies
 SIDES = {"xq": 1, "yq": 1, "xi_u": 1, "eta_v": 1, "i_g": -1, "j_g": -1, "XG": -1, "YG": -1,
@@ -106,12 +108,10 @@ def _off(dataset: xr.Dataset, component: Any, face: Hashable, centre: Hashable) 
 
 def positions(dataset: xr.Dataset, dims: tuple[Hashable, ...]) -> list[np.ndarray] | None:
     """Longitude and latitude of two dimensions; None: the dataset has none."""
-    from ._xarray import _role
-
     found: dict[str, np.ndarray] = {}
     for name, variable in dataset.variables.items():
         if variable.ndim == 2 and set(variable.dims) == set(dims):
-            role = _role(dataset[name])
+            role = role_of(dataset[name])
             if role in ("lon", "lat"):
                 found.setdefault(role, dataset[name].transpose(*dims).values.astype(np.float64))
     return [found["lon"], found["lat"]] if len(found) == 2 else None

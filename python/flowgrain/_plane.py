@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ._grid import _coordinate, _reduced
+
 
 class TransformPlane:
     """Coordinates of matplotlib's axes, or of a transform of its."""
@@ -148,7 +150,5 @@ def _closes(x: np.ndarray, period: float) -> bool:
 
 def _axes_of(x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
     """Axes, from coordinates of each sample too; None: the grid is curvilinear."""
-    from ._grid import _coordinate, _reduced
-
     axes = _reduced([_coordinate(0, x, shape), _coordinate(1, y, shape)], shape)
     return None if any(axis.ndim > 1 for axis in axes) else axes

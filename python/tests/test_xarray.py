@@ -22,7 +22,7 @@ def dataset(**names):
     ("water_u", "water_v"), ("UVEL", "VVEL"), ("windEastward", "windNorthward"),
 ])
 def test_components_are_found_by_name(u, v):
-    from flowgrain._xarray import find_pair
+    from flowgrain._dataset import find_pair
 
     found = dataset(u=u, v=v)
     found["temperature"] = found[u]
@@ -31,7 +31,7 @@ def test_components_are_found_by_name(u, v):
 
 
 def test_components_are_found_by_standard_name():
-    from flowgrain._xarray import find_pair
+    from flowgrain._dataset import find_pair
 
     found = dataset(u="first", v="second")
     found["first"].attrs["standard_name"] = "sea_water_x_velocity"
@@ -59,7 +59,7 @@ def test_names_that_are_not_there_are_told_the_nearest():
 
 
 def test_two_heights_of_one_standard_name():
-    from flowgrain._xarray import find_pair
+    from flowgrain._dataset import find_pair
 
     found = dataset(u="u100", v="v100")
     found["u10"], found["v10"] = found["u100"], found["v100"]

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "flowgrain/words.h"
 #include "sphere/sphere.h"
 
 /* Mean radius of the Earth in metres: what we project stands on a sphere. */

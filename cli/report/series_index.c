@@ -1,4 +1,4 @@
-#include "series/index.h"
+#include "report/series_index.h"
 
 #include <cjson/cJSON.h>
 #include <errno.h>
@@ -9,32 +9,37 @@
 
 #include "folder/file.h"
 #include "folder/files.h"
-#include "inputs.h"
 #include "option/recorded.h"
 #include "option/table.h"
 #include "report/past_run.h"
-#include "series/panels.h"
+
+bool series_is_there(const char *folder)
+{
+  return file_is_there(folder, SERIES_NAME);
+}
+
+void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format)
+{
+  snprintf(out, PANELS_NAME_BYTES, "panels-%02d.%s", scale % 100, format);
+}
 
 static void add_place(cJSON *object, const char *name, const char *words_name, int index,
-                      const fg_axis_value *values)
+                      const char *words)
 {
   cJSON_AddNumberToObject(object, name, index);
-  if (values)
-    cJSON_AddStringToObject(object, words_name, values[index].words);
+  if (words)
+    cJSON_AddStringToObject(object, words_name, words);
 }
 
 static void add_members(cJSON *root, const series_index *index)
 {
-  const fg_inventory_vector *vector = index->places->vector;
   cJSON *members = cJSON_AddArrayToObject(root, "members");
   for (int n = 0; n < index->count; ++n) {
     const series_member *member = &index->member[n];
     cJSON *object = cJSON_CreateObject();
     cJSON_AddStringToObject(object, "folder", member->name);
-    add_place(object, "time", "time_words", member->time,
-              vector ? vector->time_value : NULL);
-    add_place(object, "level", "level_words", member->level,
-              vector ? vector->level_value : NULL);
+    add_place(object, "time", "time_words", member->time, member->time_words);
+    add_place(object, "level", "level_words", member->level, member->level_words);
     cJSON_AddItemToArray(members, object);
   }
 }
@@ -59,7 +64,7 @@ static cJSON *describe(const series_index *index)
   cJSON_AddStringToObject(root, "version", fg_version());
   cJSON *input = cJSON_AddObjectToObject(root, "input");
   cJSON_AddStringToObject(input, "path", settings->reading.input);
-  char *absolute = inputs_is_standard(settings->reading.input)
+  char *absolute = input_is_standard(settings->reading.input)
                        ? NULL
                        : realpath(settings->reading.input, NULL);
   if (absolute)

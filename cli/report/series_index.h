@@ -1,23 +1,35 @@
 /* series.json: the runs of a series, and what they share. */
-#ifndef SERIES_INDEX_H
-#define SERIES_INDEX_H
+#ifndef REPORT_SERIES_INDEX_H
+#define REPORT_SERIES_INDEX_H
 
-#include "series/series.h"
+#include "option/settings.h"
 
+/* The index in DIR. */
+#define SERIES_NAME "series.json"
+
+/* A run of the series: its folder in DIR, its time and level. */
+enum { MEMBER_NAME_BYTES = 48 };
 typedef struct series_member {
   char name[MEMBER_NAME_BYTES];
   int time, level;
+  const char *time_words, *level_words; /* NULL: not known */
 } series_member;
 
 typedef struct series_index {
   const run_settings *settings;
-  const chosen_places *places;
   series_member *member;
   int count;
   double speeds[2];
   int panel_scales;       /* number of scales with a figure of all members */
   unsigned panel_formats; /* bits */
 } series_index;
+
+/* Whether a folder contains a series. */
+bool series_is_there(const char *folder);
+
+/* The name of a scale's figure, "panels-00.svg" for the finest. */
+enum { PANELS_NAME_BYTES = 24 };
+void panels_name(char out[PANELS_NAME_BYTES], int scale, const char *format);
 
 /* Writes DIR/series.json. Returns an exit code. */
 int index_write(const series_index *index);

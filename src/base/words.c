@@ -1,4 +1,4 @@
-#include "flowgrain/context.h"
+#include "flowgrain/words.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Files of a run's scales. */
-#ifndef RUN_SCALE_FILES_H
-#define RUN_SCALE_FILES_H
+#ifndef FOLDER_SCALE_FILES_H
+#define FOLDER_SCALE_FILES_H
 
 #include "option/settings.h"
 

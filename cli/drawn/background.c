@@ -1,4 +1,4 @@
-#include "run/background.h"
+#include "drawn/background.h"
 
 static fg_texture_kind kind_of(const picture_settings *settings)
 {

@@ -1,6 +1,6 @@
 /* The texture in the background of icons. */
-#ifndef RUN_BACKGROUND_H
-#define RUN_BACKGROUND_H
+#ifndef DRAWN_BACKGROUND_H
+#define DRAWN_BACKGROUND_H
 
 #include "option/settings.h"
 

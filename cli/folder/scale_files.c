@@ -1,4 +1,4 @@
-#include "run/scale_files.h"
+#include "folder/scale_files.h"
 
 #include <stdio.h>
 
