@@ -349,8 +349,8 @@ static void coordinates_that_no_file_can_hold_are_not_compared(void **state)
   int all[2][3];
   const size_t chunk[3] = {1000, ROWS, ROWS};
   for (int c = 0; c < 2; ++c) {
-    all[c][0] = sample_dimension(f, c == 0 ? "z_u" : "z_v", 2000000000);
-    const int id = sample_variable(f, c == 0 ? "z_u" : "z_v", NC_DOUBLE, 1, all[c]);
+    all[c][0] = sample_dimension(f, c == 0 ? "upper" : "lower", 2000000000);
+    const int id = sample_variable(f, c == 0 ? "upper" : "lower", NC_DOUBLE, 1, all[c]);
     nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
   }
   all[0][1] = all[1][1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
@@ -360,7 +360,7 @@ static void coordinates_that_no_file_can_hold_are_not_compared(void **state)
     nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
   }
   sample_end(f);
-  refuse(f, "'u' runs along 'z_u', 'v' along 'z_v'");
+  refuse(f, "'u' runs along 'upper', 'v' along 'lower'");
 }
 
 int main(void)
