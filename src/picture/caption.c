@@ -218,6 +218,7 @@ static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
   }
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
+  out->has_names = out->has_names && strcmp(out->names, out->title) != 0;
   out->names_of_title = names_components(field);
   out->in_words = field->scale != FG_SCALE_PLAIN && !out->names_of_title;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");

@@ -69,6 +69,9 @@ static void components_of_the_title_are_not_named_again(void **state)
   field.velocity_name[1] = "vel_z"; /* a plane of a volume */
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
   assert_string_equal(subtitle, "vel_x, vel_z \xC2\xB7 2 arrows");
+  field.title = "vel_x, vel_z"; /* of a file without words for them */
+  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+  assert_string_equal(subtitle, "2 arrows");
   fg_icons_destroy(icons);
 }
 

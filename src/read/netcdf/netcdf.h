@@ -364,8 +364,8 @@ fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
                               const char *mask);
 void fg__nc_samples_clear(fg__nc_samples *samples);
 
-/* A title of the vector: what the components' long or standard names share, else the
- * title of their file or group, else their names. */
+/* A title of the vector: what the components' long names, descriptions (WRF) or standard
+ * names share, else the title of their file or group, else their names. */
 void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size);
 
 /* Describes the time or level of an index; `name` is the dimension's. */

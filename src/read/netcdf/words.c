@@ -46,14 +46,44 @@ static bool has_word(const word_list *list, const char *word)
   return false;
 }
 
+/* Leaves out the direction in "x-velocity", "u-momentum". */
+static void cut_directions(word_list *list)
+{
+  static const char *const known[] = {"velocity", "wind", "current", "stress",
+                                      "momentum"};
+  for (int i = 0; i < list->count; ++i) {
+    char *word = list->word[i];
+    if (!word[0] || !strchr("uvxyUVXY", word[0]) || word[1] != '-')
+      continue;
+    for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
+      if (strcasecmp(word + 2, known[k]) == 0)
+        memmove(word, word + 2, strlen(word + 2) + 1);
+  }
+}
+
 static bool is_filler(const char *word)
 {
   static const char *const filler[] = {"component", "components", "comp.", "of",
-                                       "the",       "along",      "-",     ","};
+                                       "the",       "along",      "-",     ",",
+                                       "in",        "at",         "to",    "direction"};
   for (size_t i = 0; i < sizeof filler / sizeof *filler; ++i)
     if (strcasecmp(word, filler[i]) == 0)
       return true;
   return false;
+}
+
+/* Words that say nothing of the vector by themselves. */
+static bool is_empty(const char *word)
+{
+  return !isalpha((unsigned char)word[0]) || !word[1] || is_filler(word) ||
+         strcasecmp(word, "momentum") == 0;
+}
+
+/* "Ocean current along" is "Ocean current". */
+static void cut_fillers_at_end(char *text)
+{
+  for (char *last; (last = strrchr(text, ' ')) && is_filler(last + 1);)
+    *last = '\0';
 }
 
 static bool is_shouted(const char *word)
@@ -73,6 +103,8 @@ static bool join_shared(const char *of_u, const char *of_v, char *out, size_t si
   word_list v;
   split_words(&u, of_u);
   split_words(&v, of_v);
+  cut_directions(&u);
+  cut_directions(&v);
   size_t n = 0;
   bool telling = false;
   out[0] = '\0';
@@ -84,15 +116,13 @@ static bool join_shared(const char *of_u, const char *of_v, char *out, size_t si
     if (is_shouted(word))
       for (char *c = word; *c; ++c)
         *c = (char)tolower((unsigned char)*c);
-    telling = telling || (isalpha((unsigned char)word[0]) && word[1] && !is_filler(word));
+    telling = telling || !is_empty(word);
     const int written = snprintf(out + n, size - n, "%s%s", n > 0 ? " " : "", word);
     if (written < 0 || (size_t)written >= size - n)
       break;
     n += (size_t)written;
   }
-  const size_t end = strlen(out);
-  if (end > 3 && strcmp(out + end - 3, " of") == 0)
-    out[end - 3] = '\0';
+  cut_fillers_at_end(out);
   return telling;
 }
 
@@ -106,8 +136,8 @@ static void cut_location(char *standard_name)
 
 void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t size)
 {
-  static const char *const attribute[] = {"long_name", "standard_name"};
-  for (int a = 0; a < 2; ++a) {
+  static const char *const attribute[] = {"long_name", "description", "standard_name"};
+  for (int a = 0; a < 3; ++a) {
     char of_u[FG__NC_TEXT];
     char of_v[FG__NC_TEXT];
     fg__nc_text(pair->component[0], attribute[a], of_u, sizeof of_u);
