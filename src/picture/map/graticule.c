@@ -264,15 +264,33 @@ static void label_crossings(fg__graticule *out, size_t first, side wanted,
     }
 }
 
+/* Whether the lines traced last, from `first` on, are one line that closes: a parallel
+ * round a pole that lies in the box. */
+static bool is_closed(const fg__graticule *out, size_t first)
+{
+  const fg__polygons *lines = &out->line;
+  if (lines->count != first + 1)
+    return false;
+  const double *a = lines->point[lines->start[first]];
+  const double *b = lines->point[lines->start[first + 1] - 1];
+  const double width = out->plane->high[0] - out->plane->low[0];
+  return hypot(b[0] - a[0], b[1] - a[1]) < 1e-6 * width;
+}
+
+static bool has_label(const fg__graticule *out, int line)
+{
+  for (int n = 0; n < out->labels; ++n)
+    if (out->label[n].line == line)
+      return true;
+  return false;
+}
+
 /* A parallel that ends within the box, at the meridian where the map is cut, has its
  * label at the left side, too. */
 static void label_end(fg__graticule *out, size_t first, const char *text, int line)
 {
   const fg__plane *plane = out->plane;
   const double *west = NULL;
-  for (int n = 0; n < out->labels; ++n)
-    if (out->label[n].line == line)
-      return;
   for (size_t k = first; k < out->line.count; ++k) {
     const size_t ends[2] = {out->line.start[k], out->line.start[k + 1] - 1};
     for (int n = 0; n < 2; ++n) {
@@ -292,7 +310,8 @@ typedef struct places {
 } places;
 
 /* Parallels at the left side and meridians at the lower one; what does not get there, at
- * the opposite sides: degrees of both kinds in one row are hard to read. */
+ * the opposite sides: degrees of both kinds in one row are hard to read. Parallels that
+ * close round a pole have them inside. */
 static void label_box(fg__graticule *out, const family *f, const places *where)
 {
   static const side order[2][2] = {{SIDE_BOTTOM, SIDE_TOP}, {SIDE_LEFT, SIDE_RIGHT}};
@@ -307,7 +326,12 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
       }
   for (int n = 0; n < f[1].ticks.count; ++n) {
     lines->count = where->first[1][n + 1];
-    label_end(out, where->first[1][n], f[1].ticks.text[n], FG__TICK_LIMIT + n);
+    if (has_label(out, FG__TICK_LIMIT + n))
+      continue;
+    if (is_closed(out, where->first[1][n]))
+      label_within(out, &f[1], n, FG__TICK_LIMIT + n);
+    else
+      label_end(out, where->first[1][n], f[1].ticks.text[n], FG__TICK_LIMIT + n);
   }
   lines->count = all;
 }

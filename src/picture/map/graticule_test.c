@@ -1,6 +1,7 @@
 /* Degrees inside a map, with arrows and without. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "picture/map/map_scene.h"
 #include "picture/map/page_map.h"
@@ -113,10 +114,46 @@ static void parallels_round_a_pole_are_labelled_in_a_row(void **state)
   }
 }
 
+/* A label at a side of a box stands where its line leaves it, also of a parallel round a
+ * pole in the box; the others of these have their degrees inside. */
+static void parallels_round_a_pole_in_a_box_are_labelled_inside(void **state)
+{
+  static const view pole = {"+proj=stere +lat_0=90 +lat_ts=60 +lon_0=-45 +R=6370000 "
+                            "+units=km",
+                            {-1300, -1100},
+                            {1300, 1100},
+                            false};
+  fg_context *context = *state;
+  fg__plane plane;
+  fg__graticule *graticule = calloc(1, sizeof *graticule);
+  assert_non_null(graticule);
+  make_plane(&plane, context, &pole);
+  assert_false(plane.whole);
+  assert_int_equal(fg__graticule_create(graticule, context, &plane), FG_STATUS_OK);
+  assert_true(graticule->insides > 0);
+  for (int n = 0; n < graticule->labels + graticule->insides; ++n) {
+    const bool at_side = n < graticule->labels;
+    const fg__map_label *label =
+        at_side ? &graticule->label[n] : &graticule->inside[n - graticule->labels];
+    double longitude, latitude;
+    if (!strchr(label->text, 'N'))
+      continue;
+    fg__plane_inverse(&plane, 1, &label->at[0], &label->at[1], &longitude, &latitude);
+    assert_float_equal(latitude, strtod(label->text, NULL), 0.01);
+    for (int k = 0; k < graticule->labels; ++k)
+      assert_true(at_side || graticule->label[k].line != label->line);
+  }
+  fg__graticule_clear(graticule);
+  fg__plane_clear(&plane);
+  free(graticule);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(parallels_round_a_pole_are_labelled_in_a_row,
+                                      context_set_up, context_tear_down),
+      cmocka_unit_test_setup_teardown(parallels_round_a_pole_in_a_box_are_labelled_inside,
                                       context_set_up, context_tear_down),
   };
   return cmocka_run_group_tests_name("picture/map/graticule", tests, NULL, NULL);
