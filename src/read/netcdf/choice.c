@@ -12,9 +12,11 @@ typedef struct candidates {
   size_t count;
 } candidates;
 
-/* Writes "u,v", or "u,v,w" of a volume. */
+/* Writes "u,v", or "u,v,w" of a volume, or the name of a vector variable. */
 static int write_names(char *out, size_t size, const fg__nc_pair *pair, bool volume)
 {
+  if (pair->component[0]->element)
+    return snprintf(out, size, "%s", pair->component[0]->name);
   return snprintf(out, size, "%s,%s%s%s", pair->component[0]->name,
                   pair->component[1]->name, volume ? "," : "",
                   volume ? pair->component[2]->name : "");
@@ -108,6 +110,11 @@ static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
                               const candidates *all, const char *vars)
 {
   char name[3][FG__NC_NAME];
+  const fg__nc_variable *vector = find_named(file, vars, 0);
+  if (vector && vector->element == 1) {
+    *out = (fg__nc_pair){.component = {vector, vector + 1}, .found_by = "request"};
+    return FG_STATUS_OK;
+  }
   const int count = split_names(name, vars);
   if (count == 0)
     return fail_names(file, all, vars);
@@ -146,7 +153,7 @@ static void list_variables(char *out, size_t size, const fg__nc_file *file)
     for (size_t i = 0; i < file->variable_count; ++i) {
       const fg__nc_variable *v = &file->variables[i];
       const bool is_field = v->rank >= 2 && v->type != NC_CHAR;
-      if (is_field == (turn == 1) || used + strlen(v->name) + 8 > size)
+      if (is_field == (turn == 1) || v->element == 2 || used + strlen(v->name) + 8 > size)
         continue;
       used +=
           (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);

@@ -151,7 +151,7 @@ static bool describe(chunked *c)
   H5Tclose(type);
   for (int k = 0; k < c->rank; ++k)
     c->bytes *= c->length[k]; /* no overflow: objects.c has checked chunk sizes */
-  return filtered && c->rank == c->variable->rank;
+  return filtered && c->rank == c->variable->rank + (c->variable->element > 0);
 }
 
 /* Moves `place`, the index of a chunk's first sample, to the next chunk of the part;
@@ -228,6 +228,15 @@ int fg__nc_check_chunks(const fg__nc_variable *v, const size_t *start,
 int fg__nc_fetch(const fg__nc_variable *v, const size_t *start, const size_t *count,
                  double *out)
 {
+  size_t first[FG__NC_RANK + 1], counts[FG__NC_RANK + 1];
+  if (v->element > 0) {
+    memcpy(first, start, (size_t)v->rank * sizeof *first);
+    memcpy(counts, count, (size_t)v->rank * sizeof *counts);
+    first[v->rank] = (size_t)v->element - 1;
+    counts[v->rank] = 1;
+    start = first;
+    count = counts;
+  }
   const int error = fg__nc_check_chunks(v, start, count);
   return error ? error : nc_get_vara_double(v->group, v->id, start, count, out);
 }

@@ -58,10 +58,11 @@ static size_t find_surface(const fg__nc_variable *coordinate, const double *valu
   return best;
 }
 
-/* Levels of ROMS run from the bottom up, and may lack a coordinate. */
+/* Levels of ROMS and SCHISM run from the bottom up, and may lack a coordinate. */
 static bool runs_upwards(const char *name)
 {
-  return strcmp(name, "s_rho") == 0 || strcmp(name, "sc_r") == 0;
+  return strcmp(name, "s_rho") == 0 || strcmp(name, "sc_r") == 0 ||
+         strcmp(name, "nSCHISM_vgrid_layers") == 0;
 }
 
 static fg_status find_level(int *out, const fg__nc_file *file, const fg__nc_grid *grid)

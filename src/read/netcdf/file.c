@@ -90,6 +90,27 @@ static int describe_variable(fg__nc_variable *v, const fg__nc_file *file, int ro
   return NC_NOERR;
 }
 
+/* Vector variables (hvel of SCHISM) are listed as two variables of one name. */
+static bool is_vector(const fg__nc_file *file, const fg__nc_variable *v)
+{
+  if (v->rank < 2 || v->rank > FG__NC_RANK ||
+      (v->type != NC_FLOAT && v->type != NC_DOUBLE))
+    return false;
+  const fg__nc_dimension *last = &file->dimensions[v->dimension[v->rank - 1]];
+  return last->length == 2 && strcmp(last->name, "two") == 0;
+}
+
+static void split_vector(fg__nc_file *file)
+{
+  fg__nc_variable *v = &file->variables[file->variable_count - 1];
+  if (!is_vector(file, v))
+    return;
+  --v->rank;
+  v->element = 1;
+  file->variables[file->variable_count] = *v;
+  file->variables[file->variable_count++].element = 2;
+}
+
 static fg_status list_variables(fg__nc_file *file, int root, int group,
                                 const char *group_name, const char *path)
 {
@@ -97,8 +118,9 @@ static fg_status list_variables(fg__nc_file *file, int root, int group,
   int error = nc_inq_varids(group, &count, NULL);
   int *ids = fg__allocate((size_t)(count > 0 ? count : 0), sizeof *ids);
   void *grown = file->variables;
-  if (!ids || !fg__grow(&grown, &file->variable_capacity,
-                        file->variable_count + (size_t)count, sizeof *file->variables)) {
+  if (!ids ||
+      !fg__grow(&grown, &file->variable_capacity,
+                file->variable_count + 2 * (size_t)count, sizeof *file->variables)) {
     free(ids);
     return fg__fail_memory(file->context, "variables",
                            (size_t)count * sizeof *file->variables);
@@ -111,6 +133,8 @@ static fg_status list_variables(fg__nc_file *file, int root, int group,
     *v = (fg__nc_variable){.owner = file, .path = path, .file = file->root_count - 1};
     error = describe_variable(v, file, root, group, ids[i], group_name);
     ++file->variable_count;
+    if (!error)
+      split_vector(file);
   }
   free(ids);
   return error ? fg__nc_fail(file->context, path, "its variables", error) : FG_STATUS_OK;

@@ -335,7 +335,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
   fg__nc_units(text, texts.units, sizeof texts.units);
   fg_inventory_vector vector = {
       .components = grid->dimension,
-      .name = {pair->component[0]->name, pair->component[1]->name,
+      .name = {pair->component[0]->name,
+               pair->component[0]->element ? NULL : pair->component[1]->name,
                grid->dimension == 3 ? pair->component[2]->name : NULL},
       .units = texts.units,
       .found_by = pair->found_by,

@@ -67,6 +67,8 @@ typedef struct fg__nc_variable {
   nc_type type;
   int rank;                   /* FG__NC_RANK + 1 when it has more */
   int dimension[FG__NC_RANK]; /* indices into the file's dimensions */
+  int element; /* 1 or 2: of a vector variable, whose last dimension (of length 2) is not
+                  counted in `rank`; 0: it is a whole variable */
 } fg__nc_variable;
 
 /* One or two NetCDF files (the second holds the other component). */

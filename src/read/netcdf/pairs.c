@@ -286,7 +286,8 @@ static bool is_quality_name(const char *standard_name)
 
 static bool may_be_component(const fg__nc_file *file, const fg__nc_variable *v)
 {
-  return fg__nc_is_array(v) && (v->rank >= 2 || fg__nc_unstructured_line(file, v));
+  return fg__nc_is_array(v) && !v->element &&
+         (v->rank >= 2 || fg__nc_unstructured_line(file, v));
 }
 
 static bool list_patterns(pattern_list *list, const fg__nc_file *file)
@@ -412,6 +413,29 @@ static bool pair_group(pair_list *pairs, const fg__nc_file *file,
   return true;
 }
 
+/* Vector variables, which file.c lists as two in a row. */
+static bool add_vectors(pair_list *pairs, const fg__nc_file *file)
+{
+  for (size_t i = 0; i + 1 < file->variable_count; ++i) {
+    char units[FG__NC_TEXT], label[FG__NC_TEXT];
+    if (file->variables[i].element != 1)
+      continue;
+    fg__nc_text(&file->variables[i], "units", units, sizeof units);
+    const bool velocity =
+        !units[0] || fg__nc_units(units, label, sizeof label) == FG__NC_SPEED;
+    const fg__nc_pair pair = {.component = {&file->variables[i], &file->variables[i + 1]},
+                              .found_by = "its last dimension",
+                              .rank = velocity ? RANK_NAMED_VELOCITY : RANK_NAMED_OTHER,
+                              .is_velocity = velocity};
+    void *grown = pairs->entry;
+    if (!fg__grow(&grown, &pairs->capacity, pairs->count + 1, sizeof pair))
+      return false;
+    pairs->entry = grown;
+    pairs->entry[pairs->count++] = pair;
+  }
+  return true;
+}
+
 static int compare_pairs(const void *left, const void *right)
 {
   const fg__nc_pair *a = left;
@@ -436,12 +460,14 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
     first = end;
   }
   free(list.entry);
+  memory = memory && add_vectors(&pairs, file);
   if (!memory) {
     free(pairs.entry);
     return fg__fail_memory(file->context, "pairs of variables", 0);
   }
   for (size_t i = 0; i < pairs.count; ++i)
-    pairs.entry[i].component[2] = fg__nc_third(file, &pairs.entry[i]);
+    if (!pairs.entry[i].component[0]->element)
+      pairs.entry[i].component[2] = fg__nc_third(file, &pairs.entry[i]);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;

@@ -74,6 +74,26 @@ static bool may_be_places(const fg__nc_search *search)
          search->file->dimensions[dimension].length > 2;
 }
 
+/* Says that the mesh of a variable is not there, where its attributes name one: `mesh` of
+ * UGRID, or CDI's word of its kind. */
+static void say_absent(fg__nc_search *search)
+{
+  char text[FG__NC_TEXT];
+  const fg__nc_variable *u = search->u;
+  if (fg__nc_text(u, "mesh", text, sizeof text) && text[0] &&
+      !fg__nc_find(search->file, text))
+    snprintf(search->lacks, sizeof search->lacks,
+             "'%.60s' lies on the mesh '%.60s', which is not in the file", u->plain_name,
+             text);
+  else if (fg__nc_text(u, "CDI_grid_type", text, sizeof text) &&
+           strcmp(text, "unstructured") == 0)
+    snprintf(search->lacks, sizeof search->lacks,
+             "'%.60s' lies on an unstructured grid (CDI_grid_type), which is not in the "
+             "file",
+             u->plain_name);
+  search->elsewhere = search->lacks[0] != '\0';
+}
+
 static bool recognise(fg__nc_unstructured *out, fg__nc_search *search)
 {
   typedef bool rule(fg__nc_unstructured *, fg__nc_search *);
@@ -86,6 +106,8 @@ static bool recognise(fg__nc_unstructured *out, fg__nc_search *search)
       if (may_be_places(search) && rules[n](out, search))
         return true;
     }
+  if (!search->lacks[0])
+    say_absent(search);
   return false;
 }
 
@@ -216,8 +238,11 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
     if (search.lacks[0])
       fg__set_unusable(grid->unusable, "%s", search.lacks);
     if (search.elsewhere)
-      snprintf(grid->hint, sizeof grid->hint,
-               "--vars-from names a second file, which may have the mesh");
+      snprintf(grid->hint, sizeof grid->hint, "%s",
+               file->root_count == 1
+                   ? "--vars-from names a second file, which may have the mesh"
+                   : "only two files are read: the mesh has to be put into one of them, "
+                     "as by ncks -A MESH.nc FILE.nc");
     return FG_STATUS_OK;
   }
   grid->unstructured = mesh;

@@ -365,13 +365,88 @@ static void faults_are_named(void **state)
   }
 }
 
+/* SCHISM until 5.9: both components in one variable, by levels from the bottom up; here
+ * the opposite flow lies at the bottom. */
+static void vectors_of_one_variable(void **state)
+{
+  static double values[NODES * 2 * 2];
+  sample_file *f = *state;
+  example_mesh m = mesh_made(1, true);
+  double *const node[2] = {m.node[0], m.node[1]};
+  for (int n = 0; n < NODES; ++n) {
+    double flow[2];
+    flow_at(flow, m.node[0][n], m.node[1][n]);
+    for (int k = 0; k < 4; ++k)
+      values[4 * n + k] = k < 2 ? -flow[k] : flow[k - 2];
+  }
+  sample_begin(f, NC_NETCDF4);
+  const int faces = sample_dimension(f, "faces", m.faces);
+  const int corners = sample_dimension(f, "corners", CORNERS);
+  const int all[3] = {sample_dimension(f, "nodes", NODES),
+                      sample_dimension(f, "nSCHISM_vgrid_layers", 2),
+                      sample_dimension(f, "two", 2)};
+  put_topology(f, "lat lon");
+  put_corners(f, "nodes_of_faces", &m, faces, corners, false);
+  put_places(f, LON_LAT, all[0], NODES, node, 1.0);
+  put(f, "hvel", NC_FLOAT, 3, all, values, (attributes){"mesh", "mesh", NULL, NULL});
+  sample_end(f);
+  fg_read_defaults defaults;
+  assert_int_equal(fg_read_defaults_find(&defaults, f->context, f->path, NULL),
+                   FG_STATUS_OK);
+  assert_int_equal(defaults.level, 1);
+  for (int named = 0; named < 2; ++named) {
+    fg_field *field =
+        read_with(f, &(fg_read_options){.level = 1, .vars = named ? "hvel" : NULL});
+    assert_true(assert_flow(field, 2e-3) > 150);
+    fg_field_destroy(field);
+  }
+  fg_inventory *inventory;
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  assert_int_equal(fg_inventory_vector_count(inventory), 1);
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  assert_string_equal(vector->name[0], "hvel");
+  assert_true(vector->name[1] == NULL && vector->levels == 2);
+  fg_inventory_destroy(inventory);
+}
+
+/* Vectors along one dimension, whose mesh is in a file that is not given: that is said,
+ * instead of a plane of times or levels. */
+static void absent_meshes_are_named(void **state)
+{
+  static const struct {
+    attributes of;
+    const char *words;
+  } cases[] = {
+      {{"mesh", "SCHISM_hgrid", NULL, NULL}, "lies on the mesh 'SCHISM_hgrid', which is"},
+      {{"CDI_grid_type", "unstructured", NULL, NULL}, "an unstructured grid (CDI_grid"}};
+  static double values[2 * NODES];
+  sample_file *f = *state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    sample_begin(f, 0);
+    const int dimension[2] = {sample_dimension(f, "layers", 2),
+                              sample_dimension(f, "nodes", NODES)};
+    for (int k = 0; k < 2; ++k)
+      put(f, U_V[k], NC_DOUBLE, 2, dimension, values, cases[n].of);
+    sample_end(f);
+    refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, cases[n].words);
+    assert_non_null(strstr(fg_context_hint(f->context), "--vars-from"));
+  }
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(ugrid),         CASE(cells_with_bounds), CASE(points_alone),
-      CASE(mpas),          CASE(fvcom_in_metres),   CASE(healpix_numbers),
-      CASE(healpix_files), CASE(faults_are_named),
+      CASE(ugrid),
+      CASE(cells_with_bounds),
+      CASE(points_alone),
+      CASE(mpas),
+      CASE(fvcom_in_metres),
+      CASE(healpix_numbers),
+      CASE(healpix_files),
+      CASE(faults_are_named),
+      CASE(absent_meshes_are_named),
+      CASE(vectors_of_one_variable),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
