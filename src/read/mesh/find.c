@@ -141,7 +141,10 @@ static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
     return of_u == of_v;
   const int a = u->variable->dimension[of_u], b = v->variable->dimension[of_v];
   const fg__nc_dimension *of = file->dimensions;
-  return a == b || (of[a].length == of[b].length && named_alike(of[a].name, of[b].name));
+  if (a == b || of[a].length != of[b].length)
+    return a == b;
+  return u->variable->file == v->variable->file ? strcmp(of[a].name, of[b].name) == 0
+                                                : named_alike(of[a].name, of[b].name);
 }
 
 static bool fits(const fg__nc_mesh *mesh)
