@@ -99,6 +99,41 @@ static void what_moves_is_shown_in_noise(void **state)
   fg_field_destroy(field);
 }
 
+/* A vessel with a thinner one beside it, of one sample across and slower. */
+static bool in_two_vessels(const double place[3], double velocity[3])
+{
+  const double apart[2] = {(place[0] - middle[0] - 0.5) / (field_side[0] / 40.0),
+                           (place[1] - middle[1]) / (field_side[1] / 40.0)};
+  in_a_vessel(place, velocity);
+  if (fabs(apart[0]) < 0.5 && fabs(apart[1]) < 0.5)
+    velocity[2] = 2.0;
+  return true;
+}
+
+static void a_thin_branch_is_shown(void **state)
+{
+  (void)state;
+  fg_field *field = field_of(in_two_vessels);
+  fg_surface *surface;
+  assert_int_equal(fg__silhouette_create(&surface, NULL, field), FG_STATUS_OK);
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  int count = 0;
+  for (int n = 0; n < surface->vertex_count; ++n) {
+    const double *at = surface->vertex[n];
+    double radius = hypot(at[0] - middle[0] - 0.5, at[1] - middle[1]);
+    if (at[0] < middle[0] + 0.3)
+      continue;
+    assert_true(radius < 2.0 * field_side[0] / 40.0);
+    low = fmin(low, at[2]);
+    high = fmax(high, at[2]);
+    ++count;
+  }
+  assert_true(count > 100);
+  assert_true(fabs(low - 10.0) < 1e-9 && fabs(high - 11.5) < 1e-9);
+  fg_surface_destroy(surface);
+  fg_field_destroy(field);
+}
+
 /* It is open above and below, closed where it only touches the box. */
 static void it_is_open_where_the_box_ends_it(void **state)
 {
@@ -127,6 +162,7 @@ int main(void)
       cmocka_unit_test(a_full_box_has_none),
       cmocka_unit_test(a_hole_is_shown),
       cmocka_unit_test(what_moves_is_shown_in_noise),
+      cmocka_unit_test(a_thin_branch_is_shown),
       cmocka_unit_test(it_is_open_where_the_box_ends_it),
   };
   return cmocka_run_group_tests_name("picture/silhouette", tests, NULL, NULL);
