@@ -59,10 +59,10 @@ typedef struct fg_solid_options {
 
 /* The viewpoint from which a picture of icons in 3D shows most of them: for each of the
  * azimuths 0, 10, ... 350 with each of the elevations 10, 14, ... 50 degrees the length
- * of what is seen of the arrows is measured as it appears, without what others hide,
- * heads counted three times. Of the views within 4 % of the best it is the one nearest to
- * azimuth 30, elevation 22 (fg_solid_options); that one without icons. MEMORY, ARGUMENT
- * (2D), STOPPED. */
+ * of the arrows is measured without what others hide, times s (2 - s) for the sine s of
+ * its angle to the line of sight, heads counted three times. Of the views within 5 % of
+ * the best it is the one nearest to azimuth 30, elevation 22 (fg_solid_options); that one
+ * without icons. MEMORY, ARGUMENT (2D), STOPPED. */
 FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
                                     fg_context *context, const fg_field *field,
                                     const fg_icons *icons);
