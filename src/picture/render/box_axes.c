@@ -20,8 +20,9 @@ static const double corner_gap = 1.2;
 /* Texts in the way of another are tried so much farther off the box, in steps. */
 static const double aside_step = 0.25, most_aside = 2.5;
 
-/* Of so many numbers of an axis the first and the last are dispensable. */
-enum { MANY = 4 };
+/* Of so many numbers of an axis the first and the last are dispensable; of SOME where
+ * another axis has the same number at the corner. */
+enum { SOME = 3, MANY = 4 };
 
 static const double ink = 0.22;
 
@@ -141,38 +142,48 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
   }
 }
 
+static bool are_same(const fg__box_text *a, const fg__box_text *b)
+{
+  return strcmp(a->text, b->text) == 0 && (a->shared || b->shared);
+}
+
 static bool are_apart(const fg__box_text *a, const fg__box_text *b, double em)
 {
-  const bool same = strcmp(a->text, b->text) == 0 && (a->dispensable || b->dispensable);
+  const bool same = are_same(a, b);
   const double across = (same ? corner_gap : least_gap[0]) * em;
   const double upright = (same ? corner_gap : least_gap[1]) * em;
   return a->box.x0 >= b->box.x1 + across || b->box.x0 >= a->box.x1 + across ||
          a->box.y0 >= b->box.y1 + upright || b->box.y0 >= a->box.y1 + upright;
 }
 
-static bool is_free(const fg__box_axes *axes, const fg__box_text *text)
+/* The first text that is in the way of another; NULL: none. */
+static const fg__box_text *in_the_way(const fg__box_axes *axes, const fg__box_text *text)
 {
   for (int n = 0; n < axes->texts; ++n)
     if (!are_apart(text, &axes->text[n], axes->em))
-      return false;
-  return true;
+      return &axes->text[n];
+  return NULL;
 }
 
 /* A text whose box lies beyond a point: it touches it at the side it comes from, or lies
- * aside, but for one that is dispensable. */
-static void place_text(fg__box_axes *axes, const char *words, bool dispensable,
-                       const double at[2], const double away[2], cairo_t *ruler)
+ * aside. One that is dispensable does not, nor one that stands there already. */
+static void place_text(fg__box_axes *axes, const fg__box_text *what, const double at[2],
+                       const double away[2], cairo_t *ruler)
 {
-  const double em = axes->em, width = fg__text_width(ruler, words, em, false);
-  const double height = digit_height * em, most = dispensable ? 0.0 : most_aside;
+  const double em = axes->em, width = fg__text_width(ruler, what->text, em, false);
+  const double height = digit_height * em, most = what->dispensable ? 0.0 : most_aside;
   for (double aside = 0.0; aside <= most; aside += aside_step) {
     double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
     double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
-    const fg__box_text text = {{x, y - height, x + width, y}, words, dispensable};
-    if (is_free(axes, &text)) {
+    fg__box_text text = *what;
+    text.box = (fg__pane){x, y - height, x + width, y};
+    const fg__box_text *other = in_the_way(axes, &text);
+    if (!other) {
       axes->text[axes->texts++] = text;
       return;
     }
+    if (are_same(&text, other))
+      return;
   }
 }
 
@@ -214,13 +225,18 @@ static void place_axis(fg__box_axes *axes, const fg__view_box *view_box,
     for (int k = 0; k < 2; ++k)
       at[k] += (tick_length + number_gap) * em * away[k];
     const bool at_corner = n == 0 || n == ticks->count - 1;
-    place_text(axes, ticks->text[n], at_corner && ticks->count >= MANY, at, away, ruler);
+    const fg__box_text number = {.text = ticks->text[n],
+                                 .dispensable = at_corner && ticks->count >= MANY,
+                                 .shared =
+                                     ticks->count >= (n == 0 ? SOME : MANY) && at_corner};
+    place_text(axes, &number, at, away, ruler);
   }
   double beyond = (tick_length + number_gap + label_gap) * em + fabs(away[0]) * widest +
                   fabs(away[1]) * digit_height * em;
   for (int k = 0; k < 2; ++k)
     at[k] = (end[0][k] + end[1][k]) / 2.0 + beyond * away[k];
-  place_text(axes, axes->axis[axis].label, false, at, away, ruler);
+  const fg__box_text name = {.text = axes->axis[axis].label};
+  place_text(axes, &name, at, away, ruler);
 }
 
 void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,

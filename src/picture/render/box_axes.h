@@ -13,6 +13,7 @@ typedef struct fg__box_text {
   fg__pane box;
   const char *text; /* of the axes */
   bool dispensable; /* its axis has other numbers */
+  bool shared;      /* so it is where another axis has the same at the corner */
 } fg__box_text;
 
 enum { FG__BOX_TEXTS = 3 * (FG__TICK_LIMIT + 1) };
@@ -35,7 +36,8 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
 
 /* Chooses where the numbers and names go: one that would touch another stands farther off
  * the box, and is left out where that does not help. The first or the last of four or
- * more numbers is left out at once, and where another axis has the same at the corner.
+ * more numbers is left out at once, and of three where another axis has the same at the
+ * corner.
  * `bounds` grows to hold them. The axes must stay where they are. */
 void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
                         const fg__view_box *view_box, const fg__camera *camera,

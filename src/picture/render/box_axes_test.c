@@ -117,6 +117,20 @@ static void a_shared_number_of_a_corner_is_there_once(void **state)
   assert_int_equal(lowest, 1);
 }
 
+/* Where one of the two has three numbers, too; y begins at another corner. */
+static void the_first_of_three_numbers_is_shared(void **state)
+{
+  (void)state;
+  static const double low[3] = {0.0, 0.0, 0.0}, side[3] = {1.0, 1.0, 1.0};
+  scenery s;
+  look_at(&s, low, side, 40.0, 46.0);
+  int zeros = 0;
+  for (int n = 0; n < s.axes.texts; ++n)
+    zeros += strcmp(s.axes.text[n].text, "0.0") == 0;
+  assert_int_equal(s.axes.ticks[2].count, 3);
+  assert_int_equal(zeros, 2);
+}
+
 /* Different ones that stand beside an axis. */
 static int numbers_of(const fg__box_axes *axes, int k)
 {
@@ -217,6 +231,7 @@ int main(void)
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
       cmocka_unit_test(a_shared_number_of_a_corner_is_there_once),
+      cmocka_unit_test(the_first_of_three_numbers_is_shared),
       cmocka_unit_test(each_axis_tells_its_scale),
       cmocka_unit_test(a_picture_is_as_large_as_its_box),
   };
