@@ -12,6 +12,9 @@
 /* A head that is made larger to be seen takes no more of its arrow. */
 static const double head_share = 0.42;
 
+/* The radius of the dot on a head that points at the viewer, in the head's. */
+static const double dot_share = 0.36;
+
 /* Light comes from directions whose slope against the vertical is less: triangles that
  * face down more steeply never cast a shadow of their own. */
 static const double steepest_light = 0.02;
@@ -32,8 +35,9 @@ typedef struct maker {
 /* A surface on its way into the picture. */
 typedef struct surface_use {
   const fg_surface *surface;
-  const float *share; /* of its vertices; NULL: 0 */
-  double shift[3];    /* in the view box */
+  const float *share;  /* of its vertices; NULL: 0 */
+  const fg_icon *icon; /* whose solid it is; of arrows and their shadows */
+  double shift[3];     /* in the view box */
   int part;
   bool clipped;
 } surface_use;
@@ -185,19 +189,33 @@ static fg_status add_casters(const maker *m, const surface_use *use)
   return FG_STATUS_OK;
 }
 
+/* Whether an icon's line lies in the box along an axis. */
+static bool is_within(const fg__view_box *view_box, const fg_icon *icon, int axis)
+{
+  for (int n = 0; n < icon->point_count; ++n)
+    if (fabs(fg__view_box_place(view_box, axis, icon->points[n][axis])) >
+        view_box->half[axis])
+      return false;
+  return true;
+}
+
 /* How far along an axis copies of a solid reach into the box: from -low to high periods.
+ * One whose line lies in the box is whole: of its radius alone a copy would show a chip.
  */
-static void find_copies(const maker *m, const fg_surface *solid, int axis, int copies[2])
+static void find_copies(const maker *m, const surface_use *use, int axis, int copies[2])
 {
   const fg__view_box *view_box = &m->about->view_box;
+  const fg_surface *solid = use->surface;
   double low = HUGE_VAL, high = -HUGE_VAL;
   copies[0] = copies[1] = 0;
+  if (!(view_box->period[axis] > 0.0) || is_within(view_box, use->icon, axis))
+    return;
   for (int n = 0; n < solid->vertex_count; ++n) {
     double at = fg__view_box_place(view_box, axis, solid->vertex[n][axis]);
     low = fmin(low, at);
     high = fmax(high, at);
   }
-  if (!(view_box->period[axis] > 0.0) || solid->vertex_count == 0)
+  if (solid->vertex_count == 0)
     return;
   copies[0] = (int)fmax(ceil((-view_box->half[axis] - high) / view_box->period[axis]),
                         -most_copies);
@@ -205,8 +223,48 @@ static void find_copies(const maker *m, const fg_surface *solid, int axis, int c
                         most_copies);
 }
 
+/* Where a head begins on its line, in points. */
+static int head_base(const fg_icon *icon)
+{
+  double passed = 0.0;
+  int base = icon->point_count - 1;
+  for (; base > 0 && passed < icon->head_length; --base)
+    passed += fg__distance(icon->points[base], icon->points[base - 1]);
+  return base;
+}
+
+/* The dot on a head whose tip is seen within the outline of its base: nothing else tells
+ * that it points at the viewer. It ends before that outline. */
+static fg__tip find_tip(const maker *m, const surface_use *use)
+{
+  const fg_icon *icon = use->icon;
+  const double *tip = icon->points[icon->point_count - 1];
+  const double radius = icon->head_width / 2.0;
+  double axis[3], to_viewer[3];
+  fg__tip out = {.reach = 0.0};
+  for (int k = 0; k < 3; ++k)
+    out.at[k] = fg__view_box_place(&m->about->view_box, k, tip[k]) + use->shift[k];
+  fg__subtract(tip, icon->points[head_base(icon)], axis);
+  fg__subtract(m->about->camera.eye, out.at, to_viewer);
+  fg__normalise(axis);
+  fg__normalise(to_viewer);
+  const double along = fg__dot(axis, to_viewer);
+  const double across = sqrt(fmax(1.0 - along * along, 0.0));
+  if (!(along > 0.0) || !(radius > 0.0))
+    return out;
+  const double side = hypot(icon->head_length, radius);
+  const double room = 1.0 - icon->head_length * across / (radius * along);
+  out.reach = fmin(fmax(room, 0.0), dot_share) * side * m->about->view_box.scale;
+  out.slope = radius / side;
+  return out;
+}
+
 static fg_status add_arrow(const maker *m, const surface_use *use)
 {
+  if (!fg__grow((void **)&m->out->tip, &m->out->tip_capacity, (size_t)use->part + 1,
+                sizeof *m->out->tip))
+    return fg__fail_memory(m->context, "arrows", (size_t)use->part * sizeof *m->out->tip);
+  m->out->tip[use->part] = find_tip(m, use);
   fg_status status = add_faces(m, &m->out->solid, use, FG__FACE_ARROW, NULL);
   if (!status && m->about->halo > 0.0)
     status = add_halo(m, use);
@@ -215,14 +273,14 @@ static fg_status add_arrow(const maker *m, const surface_use *use)
 
 /* Arrows and halos of a solid, everywhere in the box; *number goes on. Where `number` is
  * NULL its shadows instead. */
-static fg_status add_copies(const maker *m, const fg_surface *solid, const float *share,
-                            int *number)
+static fg_status add_copies(const maker *m, const fg_icon *icon, const fg_surface *solid,
+                            const float *share, int *number)
 {
   fg_status status = FG_STATUS_OK;
-  surface_use use = {.surface = solid, .share = share};
+  surface_use use = {.icon = icon, .surface = solid, .share = share};
   int copies[3][2], at[3];
   for (int k = 0; k < 3; ++k) {
-    find_copies(m, solid, k, copies[k]);
+    find_copies(m, &use, k, copies[k]);
     use.clipped = use.clipped || copies[k][0] < 0 || copies[k][1] > 0;
   }
   for (at[2] = copies[2][0]; at[2] <= copies[2][1]; ++at[2])
@@ -301,7 +359,7 @@ static fg_status add_shadow(const maker *m, const fg_icon *icon)
   fg_surface *solid = NULL;
   fg_status status = fg_icon_solid(&solid, m->context, &thin);
   if (!status)
-    status = add_copies(m, solid, NULL, NULL);
+    status = add_copies(m, icon, solid, NULL, NULL);
   free(points);
   fg_surface_destroy(solid);
   return status;
@@ -321,7 +379,7 @@ static fg_status add_icon(const maker *m, const fg_icon *given, int *number)
     share[n] = fmin(fmax((share[n] - range[0]) / (range[1] - range[0]), 0.0), 1.0);
   status = fg__solid_with_values(&solid, &at_vertex, m->context, &icon, share);
   if (!status)
-    status = add_copies(m, solid, at_vertex, number);
+    status = add_copies(m, &icon, solid, at_vertex, number);
   if (!status && m->about->walls && solid->triangle_count > 0)
     status = add_shadow(m, &icon);
   free(at_vertex);
@@ -360,6 +418,7 @@ void fg__geometry_clear(fg__geometry *geometry)
   free(geometry->solid.face);
   free(geometry->layer.corner);
   free(geometry->layer.face);
+  free(geometry->tip);
   free(geometry->caster);
   *geometry = (fg__geometry){.caster = NULL};
 }

@@ -40,9 +40,19 @@ typedef struct fg__caster {
   bool clipped;
 } fg__caster;
 
+/* The dot on the tip of a head that points at the viewer: the sign of mechanics for an
+ * arrow out of the page. */
+typedef struct fg__tip {
+  double at[3]; /* of the tip, in the view box */
+  double reach; /* of the dot along the cone's side, likewise; 0: none */
+  double slope; /* the cone's radius for each step along its side */
+} fg__tip;
+
 typedef struct fg__geometry {
-  fg__faces solid;    /* arrows and halos, without triangles that are never seen */
-  fg__faces layer;    /* transparent surfaces */
+  fg__faces solid; /* arrows and halos, without triangles that are never seen */
+  fg__faces layer; /* transparent surfaces */
+  fg__tip *tip;    /* of each arrow, by its number */
+  size_t tip_capacity;
   fg__caster *caster; /* without triangles that face down */
   size_t caster_count, caster_capacity;
 } fg__geometry;

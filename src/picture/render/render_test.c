@@ -121,7 +121,7 @@ static void walls_lie_behind_and_take_shadows(void **state)
       if (channel(floor_there, 16) < channel(floor_there, 8) + 3) /* not the arrow */
         darkest = channel(floor_there, 8) < darkest ? channel(floor_there, 8) : darkest;
     }
-  assert_true(darkest < far - 25);
+  assert_true(darkest < far - 15);
   fg_icons_destroy(icons);
 }
 
@@ -254,6 +254,72 @@ static void arrows_go_round_periods(void **state)
   assert_true(channel(pixel_at(&r, 13.8, -3.86, 5.6), 24) > 100);
   assert_int_equal(pixel_at(&r, 14.15, -3.72, 6.8), 0);
   assert_true(channel(pixel_at(&r, 10.05, -3.76, 6.6), 24) > 100);
+  fg_icons_destroy(icons);
+}
+
+/* The pixels of an arrow along -y that are as light as paper. */
+static int light_pixels(double azimuth)
+{
+  static const double points[2][3] = {{12.0, -2.0, 6.0}, {12.0, -4.0, 6.0}};
+  const fg_icon icon = {.point_count = 2,
+                        .points = points,
+                        .width = 0.3,
+                        .tail_width = 0.3,
+                        .head_length = 1.0,
+                        .head_width = 0.8,
+                        .speed = 1.0};
+  fg_icons *icons = NULL;
+  fg__palette red;
+  int count = 0;
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  fg__rendering r = rendering_of(icons, &red, azimuth, 0.0);
+  assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+  for (int y = 0; y < HEIGHT; ++y)
+    for (int x = 0; x < WIDTH; ++x)
+      count += channel(image[y][x], 24) == 255 && channel(image[y][x], 8) > 230;
+  if (azimuth == 0.0)
+    assert_true(channel(pixel_at(&r, 12.0, -4.0, 6.0), 8) > 230);
+  fg_icons_destroy(icons);
+  return count;
+}
+
+/* A head that points at the viewer has a dot on its tip; no other has one. */
+static void arrows_out_of_the_page_have_a_dot(void **state)
+{
+  (void)state;
+  assert_true(light_pixels(0.0) > 15);
+  assert_true(light_pixels(0.0) > light_pixels(16.0));
+  assert_int_equal(light_pixels(25.0), 0);
+  assert_int_equal(light_pixels(90.0), 0);
+  assert_int_equal(light_pixels(180.0), 0);
+}
+
+/* In a periodic field, too, an arrow along a side of the box is whole, and there is no
+ * chip of it at the other side. */
+static void arrows_beside_a_period_are_whole(void **state)
+{
+  (void)state;
+  static const double points[2][3] = {{13.9, -3.0, 5.2}, {13.9, -3.0, 6.8}};
+  const fg_icon icon = {.point_count = 2,
+                        .points = points,
+                        .width = 0.3,
+                        .tail_width = 0.3,
+                        .head_length = 0.6,
+                        .head_width = 0.6,
+                        .speed = 1.0};
+  fg_icons *icons = NULL;
+  fg__palette red;
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  fg__rendering r = rendering_of(icons, &red, 10.0, 15.0);
+  assert_int_equal(fg__render(NULL, &r, other[0], WIDTH), FG_STATUS_OK);
+  set_view_box(&r.view_box, 4.0);
+  assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
+  assert_memory_equal(image, other, sizeof image);
+  assert_true(channel(pixel_at(&r, 14.1, -3.0, 6.25), 24) > 200);
   fg_icons_destroy(icons);
 }
 
@@ -397,6 +463,8 @@ int main(void)
       cmocka_unit_test(outlines_are_darkest_at_the_rim),
       cmocka_unit_test(colors_follow_the_speed),
       cmocka_unit_test(arrows_go_round_periods),
+      cmocka_unit_test(arrows_beside_a_period_are_whole),
+      cmocka_unit_test(arrows_out_of_the_page_have_a_dot),
       cmocka_unit_test(threads_change_nothing),
       cmocka_unit_test(turning_all_changes_nothing),
       cmocka_unit_test(arrows_have_no_holes),

@@ -102,6 +102,20 @@ static fg__light light_halo(const fg__shading *s)
   return (fg__light){paper, paper, paper, paper};
 }
 
+/* The share of a pixel that the dot on a head's tip takes. */
+static double dot_at(const fg__shading *s, const fg__shade_at *p, int part,
+                     double distance)
+{
+  const fg__tip *tip = &s->view->geometry->tip[part];
+  double place[3];
+  if (!(tip->reach > 0.0))
+    return 0.0;
+  fg__add_scaled(s->about->camera.eye, distance, p->direction, place);
+  const double pixel = distance / s->about->camera.factor;
+  const double inside = tip->slope * (tip->reach - fg__distance(place, tip->at)) / pixel;
+  return fmin(fmax(0.5 + inside, 0.0), 1.0);
+}
+
 static fg__light light_face(const fg__shading *s, fg__shade_at *p)
 {
   const fg__face *face = &s->view->geometry->solid.face[p->nearest->face];
@@ -111,8 +125,13 @@ static fg__light light_face(const fg__shading *s, fg__shade_at *p)
   fg__seen seen;
   fg__view_seen(s->view, p->nearest->face, p->x, p->y, &seen);
   const fg__lit lit = lit_of(s, seen.normal, p->direction, seen.distance);
-  return fg__light_arrow(&s->tones, fg__palette_color(s->about->palette, seen.share),
-                         &lit);
+  fg__light light =
+      fg__light_arrow(&s->tones, fg__palette_color(s->about->palette, seen.share), &lit);
+  const double dot = dot_at(s, p, face->part, seen.distance);
+  light.red += dot * (1.0 - light.red);
+  light.green += dot * (1.0 - light.green);
+  light.blue += dot * (1.0 - light.blue);
+  return light;
 }
 
 /* What a transparent surface sends; where the box cuts it, the line of the cut. */
@@ -155,6 +174,15 @@ static fg__haze find_haze(const fg__shading *s, const fg__shade_at *p)
   return out;
 }
 
+/* How far beyond the box what is seen at a point may lie: an arrow that is not cut there
+ * sticks out by its radius. */
+static double margin_of(const fg__shading *s, const fg__shade_at *p)
+{
+  const bool whole = p->nearest->face >= 0 && p->layers == 0 &&
+                     !s->view->geometry->solid.face[p->nearest->face].clipped;
+  return s->margin + (whole ? s->thickest : 0.0);
+}
+
 fg__light fg__shade_point(const fg__shading *s, fg__shade_at *p, fg__haze *haze)
 {
   bool solid = p->nearest->face >= 0;
@@ -164,7 +192,8 @@ fg__light fg__shade_point(const fg__shading *s, fg__shade_at *p, fg__haze *haze)
       (p->x < s->low[0] || p->x > s->high[0] || p->y < s->low[1] || p->y > s->high[1]))
     return (fg__light){0};
   fg__camera_ray(&s->about->camera, p->x, p->y, p->direction);
-  if ((solid || p->layers > 0) && !cross_box(s->about, p->direction, s->margin, &box))
+  if ((solid || p->layers > 0) &&
+      !cross_box(s->about, p->direction, margin_of(s, p), &box))
     return (fg__light){0};
   fg__light behind = solid ? light_face(s, p) : light_ground(s, p);
   if (p->layers == 0)
@@ -195,6 +224,10 @@ static void find_depths(fg__shading *s)
     s->farthest = fmax(s->farthest, distance);
   }
   s->margin = 2.0 * s->about->halo * s->farthest / s->about->camera.factor;
+  for (int n = 0; n < fg_icons_count(s->about->icons); ++n) {
+    const fg_icon *icon = fg_icons_at(s->about->icons, n);
+    s->thickest = fmax(s->thickest, s->about->view_box.scale * icon->head_width / 2.0);
+  }
 }
 
 void fg__shading_make(fg__shading *out, const fg__rendering *about, const fg__view *view,

@@ -14,6 +14,7 @@ typedef struct fg__shading {
   double lamp[3];
   double nearest, farthest; /* distances of the box's corners from the eye */
   double margin;            /* round the box, within which halos are looked for */
+  double thickest;          /* radius of a head */
   double low[2], high[2];   /* pixels between which the box lies */
 } fg__shading;
 
