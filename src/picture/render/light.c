@@ -15,7 +15,7 @@ static const double fade = 0.42, far_level = 0.95;
 /* The tone of a wall (the floor is the darkest, so that its shadows have a ground), of
  * the box's edges, and what a shadow takes away. */
 static const double wall_tone[3] = {0.955, 0.955, 0.915};
-static const double edge_tone = 0.66, shadow_depth = 0.27;
+static const double edge_tone = 0.66, shadow_depth = 0.18;
 
 /* Of the clusters' surfaces: what they hide where they face the viewer, and at the rim.
  */

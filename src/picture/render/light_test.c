@@ -89,12 +89,21 @@ static void places_fill_the_disc(void **state)
     assert_true(abs(quarter[n] - COUNT / 4) <= 3);
 }
 
+/* Shadows of many arrows would else be read as arrows. */
+static void shadows_are_faint(void **state)
+{
+  (void)state;
+  const double bright = fg__light_wall(2, 1.0).red, dark = fg__light_wall(2, 0.0).red;
+  assert_true(dark > 0.8 * bright && dark < 0.9 * bright);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(far_colors_keep_apart_alike),
       cmocka_unit_test(tables_are_exact_to_a_hundredth_of_a_level),
       cmocka_unit_test(places_fill_the_disc),
+      cmocka_unit_test(shadows_are_faint),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
