@@ -7,9 +7,10 @@
 
 /* In font sizes. */
 static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
-static const double least_step = 4.5; /* from one number to the next */
+static const double least_step = 4.0; /* from one number to the next */
 static const double shortest_axis = 3.0;
 static const double bar_width = 0.9, name_gap = 0.8;
+static const double bar_step = 2.4, least_bar_step = 1.2; /* so near only for a second */
 static const double digit_height = 0.72;
 
 /* Two numbers side by side read as one when they are nearer than this; the same number of
@@ -17,8 +18,9 @@ static const double digit_height = 0.72;
 static const double least_gap[2] = {0.6, 0.25};
 static const double corner_gap = 1.2;
 
-/* Texts in the way of another are tried so much farther off the box, in steps. */
-static const double aside_step = 0.25, most_aside = 2.5;
+/* Texts in the way of another are tried so much farther off the box, in steps; shared
+ * ones no farther than that, else they seem to belong to nothing. */
+static const double aside_step = 0.25, most_aside = 2.5, shared_aside = 1.5;
 
 /* Of so many numbers of an axis the first and the last are dispensable; of SOME where
  * another axis has the same number at the corner. */
@@ -171,7 +173,8 @@ static void place_text(fg__box_axes *axes, const fg__box_text *what, const doubl
                        const double away[2], cairo_t *ruler)
 {
   const double em = axes->em, width = fg__text_width(ruler, what->text, em, false);
-  const double height = digit_height * em, most = what->dispensable ? 0.0 : most_aside;
+  const double height = digit_height * em;
+  const double most = what->dispensable ? 0.0 : what->shared ? shared_aside : most_aside;
   for (double aside = 0.0; aside <= most; aside += aside_step) {
     double x = at[0] + away[0] * (width / 2.0 + aside * em) - width / 2.0;
     double y = at[1] + away[1] * (height / 2.0 + aside * em) + height / 2.0;
@@ -277,11 +280,16 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
   }
 }
 
+/* Two numbers at least, where there is room for them. */
 static void choose_bar_ticks(fg__ticks *out, double height, double em,
                              const fg__tick_axis *speed)
 {
   const double range = speed->high - speed->low;
-  fg__ticks_fill(out, speed, fg__ticks_step(speed, range * 2.4 * em / height));
+  double step = fg__ticks_step(speed, range * bar_step * em / height);
+  fg__ticks_fill(out, speed, step);
+  step = fg__ticks_step_below(speed, step);
+  if (out->count < 2 && step * height > least_bar_step * em * range)
+    fg__ticks_fill(out, speed, step);
 }
 
 double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,

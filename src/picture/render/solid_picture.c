@@ -18,8 +18,11 @@ enum { LEAST_SIZE = 64, LARGEST_SIZE = 8192 };
 /* As pictures in 2D have it: 1200 pixels are 480 points. */
 static const double usual_pixels_per_point = 2.5, usual_points = 480.0;
 
-/* The font size in sides of the picture, and the least, pixels. */
-static const double font_share = 1.0 / 58.0, least_font = 9.0;
+/* Points, as in pictures in 2D: 9 at the usual width, growing with the root of the
+ * shorter side, and 7 at least, which can be read in print. It is no larger than this
+ * share of that side, but for `least_pixels`. */
+static const double usual_font = 9.0, smallest_font = 7.0;
+static const double largest_font_share = 1.0 / 18.0, least_pixels = 9.0;
 
 /* In font sizes: round all, between the caption, the box with its numbers and the key,
  * and from line to line. The key's label is at most so wide. */
@@ -95,6 +98,14 @@ static fg_status check_options(fg_context *context, const fg_solid_options *opti
   return FG_STATUS_OK;
 }
 
+/* Pixels. */
+static double font_size_of(const fg__rendering *r, double pixels_per_point)
+{
+  const double side = fmin(r->width, r->height), points = side / pixels_per_point;
+  const double wanted = fmax(usual_font * sqrt(points / usual_points), smallest_font);
+  return fmax(fmin(wanted * pixels_per_point, largest_font_share * side), least_pixels);
+}
+
 static void settle_threads(fg__rendering *out, int threads)
 {
   out->threads = threads > 0 ? threads : fg__threads_available();
@@ -107,11 +118,13 @@ static double caption_end(const solid_picture *p)
   return (rows ? rows * line_height + gap : edge) * p->em;
 }
 
-/* The bar of the colour key. */
+/* The bar of the colour key: half way up, or just below the caption. */
 static fg__pane key_pane(const solid_picture *p, cairo_t *ruler)
 {
   const fg__rendering *r = &p->rendering;
-  const double high = bar_share * r->height, middle = 0.5 * r->height;
+  const double high = bar_share * r->height;
+  const double lowest = caption_end(p) + fg__color_bar_rise(p->em) + high / 2.0;
+  const double middle = fmax(0.5 * r->height, lowest);
   const double wide = fg__color_bar_width(high, p->em, &p->speed, ruler);
   return (fg__pane){r->width - edge * p->em - wide, middle - high / 2.0,
                     r->width - edge * p->em, middle + high / 2.0};
@@ -198,10 +211,10 @@ static void trim(solid_picture *p, const fg__pane *used, const fg_solid_options 
     r->height = (int)fmin(r->height, least[1]);
 }
 
-/* In a small picture the key's name would meet the caption. */
+/* In a small picture the key would reach below it. */
 static bool has_room_for_key(const solid_picture *p, cairo_t *ruler)
 {
-  return key_pane(p, ruler).y0 - fg__color_bar_rise(p->em) >= caption_end(p);
+  return key_pane(p, ruler).y1 <= p->rendering.height - edge * p->em;
 }
 
 static void lay_out(solid_picture *p, const fg_field_arrays *field,
@@ -265,9 +278,8 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   p->has_key = p->framed && has_speeds && !p->palette.uniform && !options->no_keys;
   r->transparent = options->transparent;
   settle_threads(r, options->threads);
-  p->em = options->font_size > 0.0
-              ? options->font_size * p->pixels_per_point
-              : fmax(font_share * fmin(r->width, r->height), least_font);
+  p->em = options->font_size > 0.0 ? options->font_size * p->pixels_per_point
+                                   : font_size_of(r, p->pixels_per_point);
   fg__axis_of_numbers(&p->speed, r->range[0], r->range[1], r->range[1] - r->range[0],
                       "speed", about->velocity_units);
   fg__caption_label_speeds(&p->speed, options->label, about->velocity_units);
