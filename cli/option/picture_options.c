@@ -47,7 +47,7 @@ static const option_entry picture_entries[] = {
              "growing with its root]"},
     {"outline-text", 0, NULL, PICTURES | COMMAND_TEXTURE, OPTION_FLAG,
      PICTURE(outline_text),
-     .help = "in 2D: texts of .svg and .pdf as shapes, which look the same without their "
+     .help = "texts of .svg and .pdf as shapes, which look the same without their "
              "font, instead of texts, which can be searched and edited"},
     {"speed-range", 0, "A,B", PICTURES | COMMAND_TEXTURE, OPTION_RANGE,
      PICTURE(speed_range), 0, 1e15,

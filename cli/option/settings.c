@@ -167,6 +167,7 @@ fg_solid_options settings_solid(const picture_settings *settings, int view,
       .label = settings->label,
       .font_size = settings->font_size,
       .no_keys = settings->no_keys,
+      .outline_text = settings->outline_text,
       .no_frame = settings->no_frame,
       .transparent = settings->transparent,
   };

@@ -32,7 +32,6 @@ int refuse_other_dimension(const char *command, const picture_settings *settings
       {"skeletons", settings->skeletons},
       {"centers", settings->centers},
       {"no-arrows", settings->no_arrows},
-      {"outline-text", settings->outline_text},
       {"mask-color", settings->mask_color != NULL},
       {"tint-color", settings->tint_color != NULL},
       {"background-fade", settings->background_fade > 0.0},

@@ -53,8 +53,9 @@ typedef struct fg_solid_options {
   const char *label;         /* of the colour key; NULL: speed and its units; "" none */
   double font_size;          /* points [from the picture's size] */
   bool no_keys;              /* no colour key */
-  double scale_time;         /* t of the scale, for the caption [none] */
-  int threads;               /* [all cores] */
+  bool outline_text; /* texts are drawn as shapes [in SVG and PDF they stay texts] */
+  double scale_time; /* t of the scale, for the caption [none] */
+  int threads;       /* [all cores] */
 } fg_solid_options;
 
 /* The viewpoint from which a picture of icons in 3D shows most of them: for each of the

@@ -257,9 +257,10 @@ void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
   }
 }
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
+void fg__box_axes_draw(const fg__writer *writer, const fg__box_axes *axes,
                        const fg__view_box *view_box, const fg__camera *camera)
 {
+  cairo_t *cairo = writer->surface->cairo;
   double end[2][2], away[2], at[2], tick = tick_length * axes->em;
   cairo_set_source_rgb(cairo, ink, ink, ink);
   cairo_set_line_width(cairo, fmax(axes->em / 16.0, 1.0));
@@ -275,8 +276,8 @@ void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
   }
   cairo_stroke(cairo);
   for (int n = 0; n < axes->texts; ++n) {
-    cairo_move_to(cairo, axes->text[n].box.x0, axes->text[n].box.y1);
-    fg__text_draw(cairo, axes->text[n].text, axes->em, false, false);
+    const double start[2] = {axes->text[n].box.x0, axes->text[n].box.y1};
+    fg__write_text(writer, axes->text[n].text, start, false, ink, FG__ALIGN_MIDDLE);
   }
 }
 
@@ -309,10 +310,12 @@ double fg__color_bar_rise(double em)
   return (name_gap + bar_width + FG__TEXT_ASCENT) * em;
 }
 
-void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
+void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
                         const fg__palette *palette, const fg__tick_axis *speed,
                         const bool beyond[2])
 {
+  cairo_t *cairo = writer->surface->cairo;
+  const double em = writer->em;
   double height = pane->y1 - pane->y0, width = bar_width * em;
   cairo_pattern_t *ramp = cairo_pattern_create_linear(0.0, pane->y1, 0.0, pane->y0);
   for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
@@ -342,11 +345,11 @@ void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
     cairo_move_to(cairo, pane->x0 + width, y);
     cairo_line_to(cairo, pane->x0 + width + tick_length * em, y);
     cairo_stroke(cairo);
-    cairo_move_to(cairo, pane->x0 + width + (tick_length + number_gap) * em,
-                  y + 0.36 * em);
-    fg__text_draw(cairo, ticks.text[n], em, false, false);
+    const double at[2] = {pane->x0 + width + (tick_length + number_gap) * em,
+                          y + 0.36 * em};
+    fg__write_text(writer, ticks.text[n], at, false, ink, FG__ALIGN_START);
   }
-  cairo_move_to(cairo, pane->x0,
-                pane->y0 - name_gap * em - (beyond[1] ? bar_width * em : 0.0));
-  fg__text_draw(cairo, speed->label, em, false, false);
+  const double above = (name_gap + (beyond[1] ? bar_width : 0.0)) * em;
+  const double at[2] = {pane->x0, pane->y0 - above};
+  fg__write_text(writer, speed->label, at, false, ink, FG__ALIGN_START);
 }

@@ -6,6 +6,7 @@
 
 #include "picture/camera.h"
 #include "picture/palette.h"
+#include "picture/render/write_text.h"
 #include "picture/ticks.h"
 
 /* A number or a name: its box, whose lower left corner is where it is drawn. */
@@ -43,7 +44,7 @@ void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
                         const fg__view_box *view_box, const fg__camera *camera,
                         cairo_t *ruler);
 
-void fg__box_axes_draw(cairo_t *cairo, const fg__box_axes *axes,
+void fg__box_axes_draw(const fg__writer *writer, const fg__box_axes *axes,
                        const fg__view_box *view_box, const fg__camera *camera);
 
 /* How wide a colour bar of such a height is, with all that is written at it. */
@@ -55,7 +56,7 @@ double fg__color_bar_rise(double em);
 
 /* An upright bar at the left of a pane, with numbers at its right and the speed's name
  * above; its end is a point where there are speeds below or above. */
-void fg__color_bar_draw(cairo_t *cairo, const fg__pane *pane, double em,
+void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
                         const fg__palette *palette, const fg__tick_axis *speed,
                         const bool beyond[2]);
 

@@ -167,9 +167,12 @@ static void each_axis_tells_its_scale(void **state)
   assert_true(thin > 100);
 }
 
-/* Pixels of a picture of a field of such sides, with an arrow along z. */
-static void measure_picture(int size[2], const double side[3])
+/* Writes a picture of a field of such sides, with an arrow along z, and reads the file as
+ * a text; free it. */
+static char *write_picture(const char *name, const double side[3],
+                           const fg_solid_options *options)
 {
+  enum { MOST_BYTES = 1 << 22 };
   static const double line[2][3] = {{0.5, 0.5, 0.2}, {0.5, 0.5, 0.8}};
   static float velocity[3][8];
   char folder[] = "/tmp/flowgrain-box-XXXXXX", path[64];
@@ -182,7 +185,7 @@ static void measure_picture(int size[2], const double side[3])
     arrays.velocity[k] = velocity[k];
   }
   for (int n = 0; n < 8; ++n)
-    velocity[2][n] = 1.0F;
+    velocity[2][n] = n < 4 ? 1.0F : 2.0F;
   const fg_icon icon = {.point_count = 2,
                         .points = line,
                         .width = 0.1,
@@ -190,26 +193,35 @@ static void measure_picture(int size[2], const double side[3])
                         .head_length = 0.2,
                         .head_width = 0.2,
                         .speed = 1.0};
-  const fg_solid_options options = {
-      .has_view = true, .azimuth = 30.0, .elevation = 22.0, .title = "a"};
   assert_int_equal(fg_field_create(&field, NULL, &arrays), FG_STATUS_OK);
   assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
   assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
   assert_non_null(mkdtemp(folder));
-  snprintf(path, sizeof path, "%s/a.png", folder);
-  assert_int_equal(fg__solid_picture_write(NULL, path, field, icons, &options),
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  assert_int_equal(fg__solid_picture_write(NULL, path, field, icons, options),
                    FG_STATUS_OK);
-  unsigned char head[24];
+  char *bytes = calloc(1, MOST_BYTES);
   FILE *file = fopen(path, "rb");
+  assert_non_null(bytes);
   assert_non_null(file);
-  assert_int_equal(fread(head, 1, sizeof head, file), sizeof head);
+  assert_true(fread(bytes, 1, MOST_BYTES - 1, file) > 24);
   fclose(file);
   unlink(path);
   rmdir(folder);
-  for (int k = 0; k < 2; ++k)
-    size[k] = head[18 + 4 * k] << 8 | head[19 + 4 * k];
   fg_icons_destroy(icons);
   fg_field_destroy(field);
+  return bytes;
+}
+
+static void measure_picture(int size[2], const double side[3])
+{
+  const fg_solid_options options = {
+      .has_view = true, .azimuth = 30.0, .elevation = 22.0, .title = "a"};
+  char *file = write_picture("a.png", side, &options);
+  const unsigned char *head = (const unsigned char *)file;
+  for (int k = 0; k < 2; ++k)
+    size[k] = head[18 + 4 * k] << 8 | head[19 + 4 * k];
+  free(file);
 }
 
 /* Neither a tall box nor a flat one leaves half of its picture empty. */
@@ -225,9 +237,78 @@ static void a_picture_is_as_large_as_its_box(void **state)
   assert_true(flat[0] == 1200 && flat[1] >= 600 && flat[1] < 700);
 }
 
+/* Of all texts of an SVG file. */
+static double least_font(const char *svg)
+{
+  double least = HUGE_VAL;
+  for (const char *at = svg; (at = strstr(at, "<text")); ++at)
+    least = fmin(least, atof(strstr(at, "font-size=\"") + 11));
+  return least;
+}
+
+static double baseline_of(const char *svg, const char *words)
+{
+  const char *at = strstr(svg, words);
+  assert_non_null(at);
+  while (strncmp(at, "<text", 5) != 0)
+    --at;
+  return atof(strstr(at, "y=\"") + 3);
+}
+
+/* 8 cm wide: letters can be read, and a flat box has its key, with two numbers. */
+static void small_pictures_are_read(void **state)
+{
+  (void)state;
+  static const double flat[3] = {5.0, 1.0, 1.0};
+  fg_solid_options options = {.width = 567,
+                              .pixels_per_point = 2.5,
+                              .has_view = true,
+                              .azimuth = 30.0,
+                              .elevation = 22.0,
+                              .speed_min = 31.0,
+                              .speed_max = 39.5,
+                              .title = "a",
+                              .subtitle = "b"};
+  char *svg = write_picture("a.svg", flat, &options);
+  int numbers = 0;
+  assert_true(least_font(svg) > 6.99);
+  assert_true(baseline_of(svg, ">speed</text>") > baseline_of(svg, ">b</text>") + 7.0);
+  for (const char *at = svg; (at = strstr(at, ">3")); ++at)
+    numbers += at[2] >= '1' && at[2] <= '9' && strncmp(at + 3, "</text>", 7) == 0;
+  assert_true(numbers >= 2);
+  free(svg);
+}
+
+/* They can be searched and edited, unless shapes are wanted. */
+static void texts_of_svg_stay_texts(void **state)
+{
+  (void)state;
+  static const double cube[3] = {1.0, 1.0, 1.0};
+  fg_solid_options options = {
+      .has_view = true, .azimuth = 30.0, .elevation = 22.0, .title = "Swirl & rise"};
+  char *svg = write_picture("a.svg", cube, &options);
+  const char *title = strstr(svg, ">Swirl &amp; rise</text>");
+  assert_non_null(title);
+  while (strncmp(title, "<text", 5) != 0)
+    --title;
+  cairo_t *ruler = fg__text_ruler();
+  const double em = atof(strstr(title, "font-size=\"") + 11);
+  assert_true(em > 8.5 && em < 9.01);
+  assert_true(fabs(atof(strstr(title, "textLength=\"") + 12) -
+                   fg__text_width(ruler, "Swirl & rise", em, true)) < 0.01);
+  cairo_destroy(ruler);
+  free(svg);
+  options.outline_text = true;
+  svg = write_picture("a.svg", cube, &options);
+  assert_null(strstr(svg, "<text"));
+  free(svg);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(small_pictures_are_read),
+      cmocka_unit_test(texts_of_svg_stay_texts),
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
       cmocka_unit_test(a_shared_number_of_a_corner_is_there_once),

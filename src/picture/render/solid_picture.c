@@ -40,6 +40,9 @@ static const double head_share = 0.0135;
 /* The shorter side is at least this share of the longer one, unless it is given. */
 static const double flattest = 0.5;
 
+/* Of the caption's lines. */
+static const double title_grey = 0.1, subtitle_grey = 0.4;
+
 /* The colour bar is this much of the picture high. */
 static const double bar_share = 0.34;
 
@@ -52,7 +55,7 @@ typedef struct solid_picture {
   double azimuth, elevation;
   double em;
   double pixels_per_point;
-  bool framed, has_key;
+  bool framed, has_key, outline_text;
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
 } solid_picture;
 
@@ -274,6 +277,7 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   r->palette = &p->palette;
   bool has_speeds = fg__speed_range(r->range, icons);
   p->pixels_per_point = pixels_per_point(options);
+  p->outline_text = options->outline_text;
   p->framed = r->walls = !options->no_frame;
   p->has_key = p->framed && has_speeds && !p->palette.uniform && !options->no_keys;
   r->transparent = options->transparent;
@@ -290,32 +294,32 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   return FG_STATUS_OK;
 }
 
-static void draw_line_of_text(cairo_t *cairo, char *text, double em, double width,
-                              bool bold, double *y)
+static void draw_line_of_text(const fg__writer *writer, char *text, double width,
+                              bool bold, double grey, double *y)
 {
+  const double em = writer->em;
   if (!text[0])
     return;
   *y += line_height * em;
-  fg__text_shorten(cairo, text, FG__CAPTION_BYTES, em, bold, width);
-  cairo_move_to(cairo, edge * em, *y);
-  fg__text_draw(cairo, text, em, bold, false);
+  fg__text_shorten(writer->surface->cairo, text, FG__CAPTION_BYTES, em, bold, width);
+  fg__write_text(writer, text, (const double[2]){edge * em, *y}, bold, grey,
+                 FG__ALIGN_START);
 }
 
-static void draw_words(cairo_t *cairo, solid_picture *p)
+static void draw_words(fg__surface_file *surface, solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
+  const fg__writer writer = {surface, p->em, p->outline_text};
   double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
   if (p->has_key) {
-    const fg__pane pane = key_pane(p, cairo);
+    const fg__pane pane = key_pane(p, surface->cairo);
     bool beyond[2];
     fg__speeds_beyond(beyond, r->icons, r->range);
-    fg__color_bar_draw(cairo, &pane, em, &p->palette, &p->speed, beyond);
+    fg__color_bar_draw(&writer, &pane, &p->palette, &p->speed, beyond);
   }
-  fg__box_axes_draw(cairo, &p->axes, &r->view_box, &r->camera);
-  cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
-  draw_line_of_text(cairo, p->title, em, width, true, &y);
-  cairo_set_source_rgb(cairo, 0.4, 0.4, 0.4);
-  draw_line_of_text(cairo, p->subtitle, em, width, false, &y);
+  fg__box_axes_draw(&writer, &p->axes, &r->view_box, &r->camera);
+  draw_line_of_text(&writer, p->title, width, true, title_grey, &y);
+  draw_line_of_text(&writer, p->subtitle, width, false, subtitle_grey, &y);
 }
 
 /* Renders the arrows to an image; it is to be destroyed. */
@@ -348,7 +352,7 @@ static fg_status draw(fg_context *context, const char *path, solid_picture *p)
     cairo_set_source_surface(surface.cairo, image, 0.0, 0.0);
     cairo_paint(surface.cairo);
     if (p->framed)
-      draw_words(surface.cairo, p);
+      draw_words(&surface, p);
     status = fg__surface_file_close(&surface, context, FG_STATUS_OK);
   }
   cairo_surface_destroy(image);

@@ -159,19 +159,21 @@ void fg__svg_texts_add(fg__svg_texts *texts, cairo_t *cairo, const fg__page_text
   const double along = shares[text->align] * width;
   double at[2] = {text->x + (text->upwards ? 0.0 : along),
                   text->y - (text->upwards ? along : 0.0)};
+  double unit = 1.0, none = 0.0;
   cairo_user_to_device(cairo, &at[0], &at[1]);
+  cairo_user_to_device_distance(cairo, &unit, &none);
   add_words(texts, "<text");
   add_place(texts, text, at);
   add_families(texts, cairo);
-  add_number(texts, "font-size", text->size);
+  add_number(texts, "font-size", unit * text->size);
   if (text->bold)
     add_words(texts, " font-weight=\"bold\"");
   if (anchors[text->align])
     add_words(texts, anchors[text->align]);
   add_color(texts, color);
-  add_number(texts, "textLength", width);
+  add_number(texts, "textLength", unit * width);
   add_words(texts, " lengthAdjust=\"spacingAndGlyphs\" xml:space=\"preserve\">");
-  add_pieces(texts, text->text, text->size);
+  add_pieces(texts, text->text, unit * text->size);
   add_words(texts, "</text>\n");
 }
 

@@ -13,7 +13,7 @@ typedef struct fg__svg_texts {
 
 /* Adds a text as an element: in the font that the drawing has, or others where a viewer
  * has not got it, squeezed or stretched to the width that was measured. The page lies
- * where the drawing's transform has it. */
+ * where the drawing's transform has it, which may scale it. */
 void fg__svg_texts_add(fg__svg_texts *texts, cairo_t *cairo, const fg__page_text *text,
                        fg__color color);
 void fg__svg_texts_clear(fg__svg_texts *texts);
