@@ -35,6 +35,8 @@ FG_API fg_status fg_image_read(fg_image **out, fg_context *context, const char *
 FG_API fg_status fg_image_create(fg_image **out, fg_context *context,
                                  const fg_image_arrays *arrays);
 FG_API void fg_image_destroy(fg_image *image);
+
+/* The image's arrays, borrowed. */
 FG_API const fg_image_arrays *fg_image_contents(const fg_image *image);
 
 enum { FG_MOST_BRUSH_SCALES = 16 };
@@ -67,6 +69,9 @@ FG_API fg_status fg_strokes_create(fg_strokes **out, fg_context *context,
                                    const fg_image *image,
                                    const fg_brush_options *options);
 FG_API void fg_strokes_destroy(fg_strokes *strokes);
+
+/* How many strokes there are; stroke `index`, from 0 in the order of painting, borrowed;
+ * and how many layers they are in. */
 FG_API int fg_strokes_count(const fg_strokes *strokes);
 FG_API const fg_stroke *fg_strokes_at(const fg_strokes *strokes, int index);
 FG_API int fg_strokes_layers(const fg_strokes *strokes);

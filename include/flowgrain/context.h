@@ -68,7 +68,8 @@ FG_API fg_status fg_require_feature(fg_context *context, const char *what,
 /* Returns the standard word for a status, "malformed file" for example. */
 FG_API const char *fg_status_name(fg_status status);
 
-/* Makes a context: the place of messages and of the stop flag. MEMORY. */
+/* Creates a context, which has the message of the first failure, the stop flag and the
+ * ranks. MEMORY. */
 FG_API fg_status fg_context_create(fg_context **out);
 FG_API void fg_context_destroy(fg_context *context);
 
@@ -90,13 +91,14 @@ FG_API void fg_context_stop(fg_context *context);
 /* What reading files with a context may use. A zero field means its default, in brackets.
  */
 typedef struct fg_input_options {
-  const void *bytes; /* what an input called "-" stands for, until the context ends; NULL:
-                        a file's name like any other */
-  size_t size;       /* of these */
-  const char *format; /* the format of fields, as fg_inventory_format says it, in small
-                         letters with dashes; "vtk": either of VTK's [found from the
-                         content] */
-  double most_memory; /* bytes that the samples of a field may take [any number] */
+  const void *bytes;  /* content of the input "-", borrowed until the context ends; NULL:
+                         "-" is a file's name like any other */
+  size_t size;        /* number of these bytes */
+  const char *format; /* of fields: a name of fg_inventory_format in lower case with
+                         dashes for spaces, "vtk-legacy"; "vtk": any of VTK's [found from
+                         the content] */
+  double most_memory; /* bytes that the samples of a field may take; more: UNSUPPORTED
+                         [any number] */
 } fg_input_options;
 
 /* Sets them; what they point to is borrowed. NULL: the defaults. */

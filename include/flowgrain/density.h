@@ -36,15 +36,19 @@ FG_API fg_status fg_density_create(fg_density **out, const fg_evolution *evoluti
 /* Whether a density is distributed among several ranks. */
 FG_API bool fg_density_is_distributed(const fg_density *density);
 
-/* Puts a distributed density together on rank 0; on other ranks *out becomes NULL.
+/* Gathers a distributed density on rank 0; on other ranks *out becomes NULL.
  * Collective. MEMORY, ARGUMENT (it is not distributed). */
 FG_API fg_status fg_density_gather(fg_density **out, fg_context *context,
                                    const fg_density *density);
 
-/* Copies arrays into a density of its own, for icons from elsewhere. ARGUMENT, MEMORY. */
+/* Copies arrays into a new density and finds its clusters, for a density that is not of
+ * an fg_evolution. `time` and the members after it are kept as given. ARGUMENT (sizes,
+ * spacing), MEMORY. */
 FG_API fg_status fg_density_create_from_arrays(fg_density **out, fg_context *context,
                                                const fg_density_arrays *arrays);
 FG_API void fg_density_destroy(fg_density *density);
+
+/* The density's arrays, borrowed. */
 FG_API const fg_density_arrays *fg_density_contents(const fg_density *density);
 
 /* The number of each node's cluster, from 1; 0 outside, -1 in components too small to be

@@ -38,9 +38,9 @@ typedef enum fg_mesh_kind {
 /* Vector instructions of the inner loops; u has the same bits with all. */
 typedef enum fg_vectors {
   FG_VECTORS_WIDEST = 0, /* that the machine has */
-  FG_VECTORS_GENERIC,    /* as the compiler vectorises for any machine of its kind */
-  FG_VECTORS_AVX2,       /* this or less: */
-  FG_VECTORS_AVX512
+  FG_VECTORS_GENERIC,    /* what every machine of this architecture has */
+  FG_VECTORS_AVX2,       /* at most AVX2 */
+  FG_VECTORS_AVX512      /* at most AVX-512 */
 } fg_vectors;
 
 /* A zero field means its default, in brackets. */
@@ -65,8 +65,8 @@ typedef struct fg_evolution_options {
   fg_scheme scheme;         /* of the time steps [BDF2] */
   int threads;              /* [all cores] */
   fg_vectors vectors;       /* the widest to use [widest] */
-  const float *initial; /* NULL: noise; else u at the nodes of the mesh, as fg_density has
-                           it: copied, and not shifted: its mean is kept */
+  const float *initial; /* u at the nodes of the mesh, x fastest, as in fg_density_arrays;
+                           copied, with its own mean; NULL: noise */
 } fg_evolution_options;
 
 typedef struct fg_step {
@@ -148,11 +148,12 @@ typedef struct fg_mesh_info {
   const char *kernel; /* vector instructions that run: "avx512", "avx2", "generic" */
 } fg_mesh_info;
 
+/* The present mesh and the parameters in use, borrowed; a coarsening changes them. */
 FG_API const fg_mesh_info *fg_evolution_mesh(const fg_evolution *evolution);
 
 /* Phases of an evolution, by which communication is counted. */
 typedef enum fg_phase {
-  FG_PHASE_OTHER = 0, /* agreements, and all that is outside of these: */
+  FG_PHASE_OTHER = 0, /* agreements on statuses, and all outside of the other phases */
   FG_PHASE_SETUP,     /* fg_evolution_create */
   FG_PHASE_STEPS,     /* fg_evolution_step, apart from its cycles and the counting */
   FG_PHASE_CYCLES,    /* multigrid cycles */
@@ -162,22 +163,21 @@ typedef enum fg_phase {
 
 enum { FG_PHASES = FG_PHASE_SNAPSHOTS + 1 };
 
-/* Communication counters of one rank. An exchange is one round of messages to the
- * neighbours. */
+/* Communication counters of a rank in one phase. */
 typedef struct fg_communication {
-  double times;             /* that the phase was begun; 0 for OTHER */
-  double exchanges;         /* rounds */
-  double messages, bytes;   /* sent to single ranks */
-  double gathers, gathered; /* of all ranks' pieces on each; bytes received from others */
-  double reductions, reduced; /* over all ranks; bytes that this one contributes */
+  double times;               /* that the phase was begun; 0 for OTHER */
+  double exchanges;           /* rounds of messages to the neighbours */
+  double messages, bytes;     /* sent to single ranks */
+  double gathers, gathered;   /* all-gathers; bytes received from others in them */
+  double reductions, reduced; /* all-reductions; bytes that this rank contributes */
 } fg_communication;
 
 /* Communication among the ranks of an evolution since its context was given a
- * communicator, exact: the mean over ranks and the greatest of each number, all 0 with
- * one rank. Collective. */
+ * communicator, by fg_phase: of each counter the mean over ranks and the greatest. All
+ * are 0 with one rank. Collective. */
 FG_API void fg_evolution_communication(const fg_evolution *evolution,
-                                       fg_communication mean[],
-                                       fg_communication greatest[]);
+                                       fg_communication mean[FG_PHASES],
+                                       fg_communication greatest[FG_PHASES]);
 
 #ifdef __cplusplus
 }

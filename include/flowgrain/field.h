@@ -19,28 +19,29 @@ typedef enum fg_scale {
 
 typedef struct fg_map_options fg_map_options; /* map.h */
 
-/* What the components of a vector on a model's grid are along. */
+/* The directions of a vector's components on a model's grid; docs/method/model-grids.md
+ * has the rules of AUTO. */
 typedef enum fg_frame {
-  FG_FRAME_AUTO =
-      0,         /* from names, attributes and the grid (docs/method/model-grids.md) */
-  FG_FRAME_EAST, /* east and north */
-  FG_FRAME_GRID  /* the directions of the grid's indices or axes */
+  FG_FRAME_AUTO = 0, /* by names, attributes and the grid */
+  FG_FRAME_EAST,     /* east and north */
+  FG_FRAME_GRID      /* the directions of the grid's indices or axes */
 } fg_frame;
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
-  const char *vars_from; /* second file with the other component(s) */
+  const char *vars_from; /* second file, with the other component(s); NULL: none */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
-  const char *mask; /* variable that is zero (negative, missing) outside the domain */
+  const char *mask;      /* variable that is zero, negative or missing outside the domain;
+                            NULL:      none, or one that a model's file is known for */
   fg_scale scale;
-  const char *block; /* of several in a file the one, or those within it, of this name;
+  const char *block; /* of a file in blocks, the block of this name and those within it;
                         NULL: all together */
   fg_frame frame;
   const char *slice; /* a plane to cut a field in 3D by (fg_plane_parse); NULL: none */
-  const fg_map_options *map; /* what is in longitude and latitude is laid on this map;
-                                NULL: it stays so */
+  const fg_map_options *map; /* projection of a field in longitude and latitude; NULL:
+                                none */
 } fg_read_options;
 
 /* Reads a field from a file, or makes an analytic one from "synth:NAME" (sampled at 257
@@ -100,8 +101,8 @@ FG_API void fg_field_destroy(fg_field *field);
  * `projection`. */
 FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
 
-/* How many of a field's samples are missing because a component is infinite: of a slab
- * those of its own rows, once it is joined those of all. */
+/* The number of samples that are missing because a component is infinite: in a slab those
+ * of its own rows, after fg_field_join those of all ranks. */
 FG_API size_t fg_field_infinite(const fg_field *field);
 
 /* Velocity at a point in the input's units, bilinear or trilinear; false outside the
@@ -137,26 +138,24 @@ typedef struct fg_plane {
 FG_API fg_status fg_field_slice(fg_field **out, fg_context *context,
                                 const fg_field *volume, const fg_plane *plane);
 
-/* Reads a plane from "NAME=VALUE", the name of an axis or x, y, z, or from
- * "NX,NY,NZ@X,Y,Z", normal and point. With a NULL volume any name will do: the words
- * alone are checked. ARGUMENT. */
+/* Parses a plane: "NAME=VALUE" with the name of an axis or x, y, z; or "NX,NY,NZ@X,Y,Z",
+ * normal and point. With a NULL volume only the syntax is checked. ARGUMENT. */
 FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *text,
                                 const fg_field *volume);
 
-/* Of a field that is a plane in space, cut or read with three components: which share of
- * the mean square of the velocity its component normal to the plane has, from 0 to 1; 0
- * for other fields and for slabs. */
+/* For a field that is a plane in space, cut or read with three components: the mean
+ * square of the velocity's component normal to the plane over that of the velocity, 0 to
+ * 1; 0 for other fields and for slabs. */
 FG_API double fg_field_normal_share(const fg_field *field);
 
-/* The speeds between which a whole field lies but for the slowest and the fastest
- * twentieth of its area (volume): what the ends of a colour key for several fields are
- * found from. Input units. ARGUMENT (a slab), MEMORY. */
+/* The 5 % and the 95 % quantile of the speed by area (volume), input units: for the ends
+ * of a colour key that several fields share. ARGUMENT (a slab), MEMORY. */
 FG_API fg_status fg_field_speed_range(double range[2], fg_context *context,
                                       const fg_field *field);
 
-/* Writes a field as .vti (VTK XML image data; axes must be evenly spaced; scale,
- * projection, time and level as FieldData) or .nc (NetCDF, CF). UNSUPPORTED for other
- * names' ends, FILE_ACCESS, MEMORY. */
+/* Writes a field as .vti (VTK XML image data, with scale, projection, time and level as
+ * FieldData) or .nc (NetCDF, CF). UNSUPPORTED (a name with another end, uneven axes in a
+ * .vti, a build without FG_FEATURE_NETCDF), ARGUMENT (a slab), FILE_ACCESS, MEMORY. */
 FG_API fg_status fg_field_write(fg_context *context, const char *path,
                                 const fg_field *field);
 

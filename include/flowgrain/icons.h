@@ -64,6 +64,8 @@ FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);
 FG_API void fg_icons_destroy(fg_icons *icons);
+
+/* How many icons there are. */
 FG_API int fg_icons_count(const fg_icons *icons);
 
 /* Icon `index`, from 0 to count - 1, borrowed. */

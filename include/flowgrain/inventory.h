@@ -69,8 +69,8 @@ FG_API int fg_inventory_vector_count(const fg_inventory *inventory);
 FG_API const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
                                                          int index);
 
-/* What reading a vector takes where nothing is given: its level, and for coordinates that
- * the file lacks the indices of the grid. */
+/* The defaults of reading a vector: its level; and which coordinates the file lacks, in
+ * place of which the indices of the grid are used. */
 typedef struct fg_read_defaults {
   int level;        /* index; of an ocean's levels the one at the surface, which has the
                        greatest height or the least depth; else 0 */
@@ -83,10 +83,6 @@ typedef struct fg_read_defaults {
  * `absent` empty. Statuses as fg_field_read; options may be NULL. */
 FG_API fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
                                        const char *input, const fg_read_options *options);
-
-/* Their earlier names. */
-typedef fg_read_defaults fg_usual;
-#define fg_usual_find fg_read_defaults_find
 
 /* Times or levels that a text selects. */
 typedef struct fg_selection {

@@ -8,9 +8,9 @@
 extern "C" {
 #endif
 
-/* A zero field means its default, in brackets. Texts are UTF-8; in those of the caption
- * {title}, {time}, {level}, {names} and {arrows} stand for what the field says of itself
- * and for the number of arrows, in the colour key's {units} for its units. */
+/* A zero field means its default, in brackets. Texts are UTF-8. Placeholders of the
+ * caption are {title}, {time}, {level} and {names} of the field and {arrows}, the number
+ * of arrows; {units} that of the colour key. */
 typedef struct fg_picture_options {
   double width;            /* of the whole picture, in points of 1/72 inch [480] */
   double height;           /* [0: follows from the domain's shape] */
@@ -59,8 +59,8 @@ typedef struct fg_panel {
 /* Names of the colour maps, ended by NULL. */
 FG_API const char *const *fg_picture_palettes(void);
 
-/* Rounds the ends of a colour key out to ticks; equal ones become those of a range that
- * has them in it. */
+/* Rounds the ends of a colour key outwards to ticks; equal ends become a range round
+ * their value. */
 FG_API void fg_picture_round_speeds(double range[2]);
 
 /* Draws icons; the format follows the name's end: .svg, .pdf or .png. density may be NULL

@@ -27,16 +27,15 @@ typedef struct fg_rival_options {
   fg_rival_method method; /* [hedgehog] */
   int nodes; /* of the raster that the method works on, along the longest side [257, in 3D
                 49] */
-  bool length_by_speed; /* hedgehog, grid: as long as |v| of the largest [equal lengths]
-                         */
+  bool length_by_speed; /* hedgehog, grid-curved: length proportional to |v| [equal] */
   double length; /* of an arrow (the longest), in fair-share lengths sqrt(area / count),
                     in 3D cbrt(volume / count); not of discrete, top-down, streamlines,
                     farthest [what the method has] */
-  double position_weight; /* discrete: what position counts beside direction, in (0, 1]
+  double position_weight; /* discrete: weight of position against direction, in (0, 1]
                              [0.95] */
-  bool direction_only;    /* discrete: position does not count at all */
-  double elongation;      /* discrete: clusters are drawn out along the flow by that many
-                             times, from 1 on [2] */
+  bool direction_only;    /* discrete: the weight of position is 0 */
+  double elongation;      /* discrete: elongation of clusters along the flow, at least 1
+                             [2] */
 } fg_rival_options;
 
 typedef struct fg_rival fg_rival;
@@ -47,12 +46,12 @@ FG_API fg_status fg_rival_create(fg_rival **out, fg_context *context,
                                  const fg_field *field, const fg_rival_options *options);
 FG_API void fg_rival_destroy(fg_rival *rival);
 
-/* Makes about `count` arrows; it can be called again with other counts: a grid has as
- * near to as many points as its shape allows, and evenly spaced streamlines as their
- * spacing; discrete and top-down clusters are as many, and nested from count to count;
- * other methods give exactly `count` where there is room. No centreline leaves the
- * domain. Where the flow stands still there is none; fg_icons_dropped counts them.
- * ARGUMENT (count below 1), MEMORY, STOPPED. */
+/* Makes about `count` arrows; can be called again with other counts. Grids and evenly
+ * spaced streamlines come as near to `count` as their shape or spacing allows. Discrete
+ * and top-down make `count` clusters, nested from count to count. Other methods give
+ * exactly `count` where there is room. No centreline leaves the domain. Where the flow is
+ * at rest there is no arrow; fg_icons_dropped counts those. ARGUMENT (count below 1),
+ * MEMORY, STOPPED. */
 FG_API fg_status fg_rival_icons(fg_icons **out, fg_rival *rival, int count);
 
 /* The clusters that these arrows stand for, u > 0 inside each and below on the lines

@@ -121,6 +121,7 @@ typedef struct fg_run_record {
   fg_step first;     /* the first with a number of clusters; step 0: none yet */
 } fg_run_record;
 
+/* Fills in the record of a run's present state. */
 FG_API void fg_run_describe(fg_run_record *out, const fg_run *run);
 
 /* Puts a run, just created with the same options, into the state of a checkpoint and a

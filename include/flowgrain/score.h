@@ -1,4 +1,4 @@
-/* How well icons tell a field: the errors of readers that reconstruct it from them.
+/* How well icons represent a field: the errors of readers that reconstruct it from them.
  * Included by flowgrain.h. */
 #ifndef FLOWGRAIN_SCORE_H
 #define FLOWGRAIN_SCORE_H
@@ -11,8 +11,8 @@ extern "C" {
 
 /* The fair-share length of N icons is lambda = sqrt(|domain| / N), in 3D
  * (|domain| / N)^(1/3); |domain| is the area (volume) of the data cells that have a value
- * at every corner. All lengths and distances are in the field's own coordinates, which
- * count alike, and end at periodic sides: the domain is one period. */
+ * at every corner. Lengths and distances are Euclidean in the field's own coordinates,
+ * without continuation across periodic sides: the domain is one period. */
 
 typedef enum fg_score_class {
   FG_SCORE_ARROWS = 0, /* lines longer than lambda count for their middle lambda */
@@ -23,8 +23,8 @@ typedef enum fg_score_class {
 typedef struct fg_score_options {
   fg_score_class lengths; /* [arrows] */
   int count;              /* the nominal N [the number of icons] */
-  double ink;             /* at most so much: lines are cut, about their middles, to one
-                             greatest length [no limit] */
+  double ink;             /* upper bound of fg_score.ink: lines are cut, about their
+                             middles, to one greatest length [no limit] */
   bool readers_only;      /* only the readers, ink and lengths: the rest becomes NaN */
   int threads;            /* the result does not depend on it [1] */
 } fg_score_options;
@@ -46,9 +46,9 @@ typedef struct fg_score {
                                        ^-4 */
   double mean;                      /* of the three means */
   double percentile_95;             /* mean of the three */
-  double
-      advection;      /* E_adv: mean distance between ends of streamlines of the field and
-                         of the diffusion reader, over the radius that they are followed in */
+  double advection;   /* E_adv: mean distance between ends of streamlines of the field and
+                         of the diffusion reader, in units of the radius to which they are
+                         followed */
   double critical_f1; /* critical points of the field found in the diffusion reader, F1
                          measure (1 without any in both); NaN in 3D */
   double void_mean, void_max; /* distance to the nearest icon / lambda; infinite without

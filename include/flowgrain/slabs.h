@@ -10,9 +10,9 @@ extern "C" {
 
 /* Reads slab `slab` of `slabs` of a field: rows along its last axis, evenly divided, and
  * the next row where there is one. Sizes, axes and words are the whole field's;
- * fg_field_join checks what concerns all slabs. A synthetic field, one of fewer rows than
- * slabs, and the only slab of one come whole. Not collective. ARGUMENT (no such slab);
- * statuses as fg_field_read. */
+ * fg_field_join checks what concerns all slabs. An analytic field, one with fewer rows
+ * than slabs, and the only slab of one are read whole. Not collective. ARGUMENT (no such
+ * slab); statuses as fg_field_read. */
 FG_API fg_status fg_field_read_slab(fg_field **out, fg_context *context,
                                     const char *input, const fg_read_options *options,
                                     int slab, int slabs);

@@ -64,6 +64,8 @@ FG_API fg_status fg_texture_create(fg_texture **out, fg_context *context,
                                    const fg_field *field,
                                    const fg_texture_options *options);
 FG_API void fg_texture_destroy(fg_texture *texture);
+
+/* The texture's arrays, borrowed. */
 FG_API const fg_texture_arrays *fg_texture_contents(const fg_texture *texture);
 
 /* A zero field means its default, in brackets. */

@@ -27,7 +27,7 @@ typedef struct fg_view_options {
   double anisotropy, coverage; /* as in fg_evolution_options */
   const char *palette;         /* as in fg_picture_options [gale] */
   double speed_min, speed_max; /* ends of the colour key; both 0: [from the field] */
-  const char *title;           /* NULL: what the field says of itself */
+  const char *title;           /* NULL: the field's title */
   const fg_view_scale *scales; /* of a run, finest first: in 3D at least one; in 2D the
                                   page opens with the first's arrows, where they are
                                   placed [made by the page] */

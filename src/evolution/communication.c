@@ -5,8 +5,9 @@
 
 enum { NUMBERS = sizeof(fg_communication) / sizeof(double), ALL = FG_PHASES * NUMBERS };
 
-void fg_evolution_communication(const fg_evolution *evolution, fg_communication mean[],
-                                fg_communication greatest[])
+void fg_evolution_communication(const fg_evolution *evolution,
+                                fg_communication mean[FG_PHASES],
+                                fg_communication greatest[FG_PHASES])
 {
   const fg__ranks *ranks = evolution->ranks;
   double most[ALL] = {0.0}, number[ALL] = {0.0};
