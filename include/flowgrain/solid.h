@@ -58,12 +58,12 @@ typedef struct fg_solid_options {
   int threads;       /* [all cores] */
 } fg_solid_options;
 
-/* The viewpoint from which a picture of icons in 3D shows most of them: for each of the
- * azimuths 0, 10, ... 350 with each of the elevations 10, 14, ... 50 degrees the length
- * of the arrows is measured without what others hide, times s (2 - s) for the sine s of
- * its angle to the line of sight, heads counted three times. Of the views within 5 % of
- * the best it is the one nearest to azimuth 30, elevation 22 (fg_solid_options); that one
- * without icons. MEMORY, ARGUMENT (2D), STOPPED. */
+/* The viewpoint from which a picture of icons in 3D shows most of them. Views are the
+ * azimuths 0, 10, ... 350 with the elevations 10, 14, ... 50 degrees. The merit of a view
+ * is the visible length of the arrows, heads counted three times, weighted by s (2 - s)
+ * with s the sine of the angle to the line of sight. Of the views with at least 95 % of
+ * the largest merit the one nearest to azimuth 30, elevation 22 is taken; without icons
+ * that one itself. MEMORY, ARGUMENT (2D), STOPPED. */
 FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
                                     fg_context *context, const fg_field *field,
                                     const fg_icons *icons);
