@@ -9,7 +9,7 @@
 static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
 static const double least_step = 4.0; /* from one number to the next */
 static const double shortest_axis = 3.0;
-static const double bar_width = 0.9, name_gap = 0.8;
+static const double bar_width = 0.9, name_gap = 0.8, label_line = 1.2;
 static const double bar_step = 2.4, least_bar_step = 1.2; /* so near only for a second */
 static const double digit_height = 0.72;
 
@@ -294,25 +294,28 @@ static void choose_bar_ticks(fg__ticks *out, double height, double em,
 }
 
 double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
-                           cairo_t *ruler)
+                           const fg__bar_label *label, cairo_t *ruler)
 {
   fg__ticks ticks;
   double widest = 0.0;
   choose_bar_ticks(&ticks, height, em, speed);
   for (int n = 0; n < ticks.count; ++n)
     widest = fmax(widest, fg__text_width(ruler, ticks.text[n], em, false));
-  return fmax((bar_width + tick_length + number_gap) * em + widest,
-              fg__text_width(ruler, speed->label, em, false));
+  widest += (bar_width + tick_length + number_gap) * em;
+  for (int n = 0; n < label->count; ++n)
+    widest = fmax(widest, fg__text_width(ruler, label->line[n], label->size, false));
+  return widest;
 }
 
-double fg__color_bar_rise(double em)
+double fg__color_bar_rise(double em, const fg__bar_label *label)
 {
-  return (name_gap + bar_width + FG__TEXT_ASCENT) * em;
+  const int more = label->count > 1 ? label->count - 1 : 0;
+  return (name_gap + bar_width + FG__TEXT_ASCENT) * em + more * label_line * label->size;
 }
 
 void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
                         const fg__palette *palette, const fg__tick_axis *speed,
-                        const bool beyond[2])
+                        const fg__bar_label *label, const bool beyond[2])
 {
   cairo_t *cairo = writer->surface->cairo;
   const double em = writer->em;
@@ -350,6 +353,10 @@ void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
     fg__write_text(writer, ticks.text[n], at, false, ink, FG__ALIGN_START);
   }
   const double above = (name_gap + (beyond[1] ? bar_width : 0.0)) * em;
-  const double at[2] = {pane->x0, pane->y0 - above};
-  fg__write_text(writer, speed->label, at, false, ink, FG__ALIGN_START);
+  const fg__writer small = {writer->surface, label->size, writer->shapes};
+  for (int n = 0; n < label->count; ++n) {
+    const double up = above + (label->count - 1 - n) * label_line * label->size;
+    const double at[2] = {pane->x0, pane->y0 - up};
+    fg__write_text(&small, label->line[n], at, false, ink, FG__ALIGN_START);
+  }
 }

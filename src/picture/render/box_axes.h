@@ -47,17 +47,24 @@ void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
 void fg__box_axes_draw(const fg__writer *writer, const fg__box_axes *axes,
                        const fg__view_box *view_box, const fg__camera *camera);
 
+/* What is written above a colour bar. */
+typedef struct fg__bar_label {
+  char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
+  int count;
+  double size; /* of its letters; at most the font size */
+} fg__bar_label;
+
 /* How wide a colour bar of such a height is, with all that is written at it. */
 double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
-                           cairo_t *ruler);
+                           const fg__bar_label *label, cairo_t *ruler);
 
 /* How far it reaches above its pane at most. */
-double fg__color_bar_rise(double em);
+double fg__color_bar_rise(double em, const fg__bar_label *label);
 
-/* An upright bar at the left of a pane, with numbers at its right and the speed's name
- * above; its end is a point where there are speeds below or above. */
+/* An upright bar at the left of a pane, with numbers at its right and the label above;
+ * its end is a point where there are speeds below or above. */
 void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
                         const fg__palette *palette, const fg__tick_axis *speed,
-                        const bool beyond[2]);
+                        const fg__bar_label *label, const bool beyond[2]);
 
 #endif

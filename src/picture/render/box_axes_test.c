@@ -304,11 +304,36 @@ static void texts_of_svg_stay_texts(void **state)
   free(svg);
 }
 
+/* Long ones are broken into lines, as in 2D, and leave the box its room. */
+static void long_texts_are_whole(void **state)
+{
+  (void)state;
+  static const double cube[3] = {1.0, 1.0, 1.0};
+  const fg_solid_options options = {
+      .width = 567,
+      .pixels_per_point = 2.5,
+      .has_view = true,
+      .azimuth = 30.0,
+      .elevation = 22.0,
+      .speed_min = 31.0,
+      .speed_max = 39.5,
+      .title = "A title for a swirl about an upright axis, which rises in its core",
+      .subtitle = "so long that it does not fit into a single line of a small picture",
+      .label = "speed in metres a second"};
+  char *svg = write_picture("a.svg", cube, &options);
+  assert_null(strstr(svg, "\xE2\x80\xA6")); /* an ellipsis */
+  assert_true(baseline_of(svg, "core</text>") > baseline_of(svg, ">A title"));
+  assert_true(baseline_of(svg, "picture</text>") > baseline_of(svg, ">so long"));
+  assert_true(baseline_of(svg, "second</text>") > baseline_of(svg, ">speed in"));
+  free(svg);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(small_pictures_are_read),
       cmocka_unit_test(texts_of_svg_stay_texts),
+      cmocka_unit_test(long_texts_are_whole),
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
       cmocka_unit_test(a_shared_number_of_a_corner_is_there_once),

@@ -25,8 +25,12 @@ static const double usual_font = 9.0, smallest_font = 7.0;
 static const double largest_font_share = 1.0 / 18.0, least_pixels = 9.0;
 
 /* In font sizes: round all, between the caption, the box with its numbers and the key,
- * and from line to line. The key's label is at most so wide. */
-static const double edge = 1.2, gap = 1.6, line_height = 1.3, widest_label = 14.0;
+ * and from line to line. */
+static const double edge = 1.2, gap = 1.6, line_height = 1.3;
+
+/* Lines of the key's label are no wider than this, in font sizes, and not much wider than
+ * this share of the picture. */
+static const double widest_label = 14.0, narrowest_label = 6.0, label_share = 0.2;
 
 /* What is written takes at most this share of what the caption and the key leave. */
 static const double most_written = 0.7;
@@ -57,6 +61,10 @@ typedef struct solid_picture {
   double pixels_per_point;
   bool framed, has_key, outline_text;
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES]; /* of the two, the title's first */
+  int titles, lines;
+  double title_size, subtitle_size;
+  fg__bar_label label;
 } solid_picture;
 
 static double pixels_per_point(const fg_solid_options *options)
@@ -117,8 +125,7 @@ static void settle_threads(fg__rendering *out, int threads)
 /* How low the caption reaches, with some room below it. */
 static double caption_end(const solid_picture *p)
 {
-  const int rows = (p->title[0] != 0) + (p->subtitle[0] != 0);
-  return (rows ? rows * line_height + gap : edge) * p->em;
+  return (p->lines ? p->lines * line_height + gap : edge) * p->em;
 }
 
 /* The bar of the colour key: half way up, or just below the caption. */
@@ -126,9 +133,10 @@ static fg__pane key_pane(const solid_picture *p, cairo_t *ruler)
 {
   const fg__rendering *r = &p->rendering;
   const double high = bar_share * r->height;
-  const double lowest = caption_end(p) + fg__color_bar_rise(p->em) + high / 2.0;
+  const double lowest =
+      caption_end(p) + fg__color_bar_rise(p->em, &p->label) + high / 2.0;
   const double middle = fmax(0.5 * r->height, lowest);
-  const double wide = fg__color_bar_width(high, p->em, &p->speed, ruler);
+  const double wide = fg__color_bar_width(high, p->em, &p->speed, &p->label, ruler);
   return (fg__pane){r->width - edge * p->em - wide, middle - high / 2.0,
                     r->width - edge * p->em, middle + high / 2.0};
 }
@@ -187,12 +195,33 @@ static fg__pane fit(solid_picture *p, const fg_field_arrays *field, cairo_t *rul
   return all;
 }
 
+/* Breaks what is written into lines that fit the picture. */
+static void break_texts(solid_picture *p, cairo_t *ruler)
+{
+  const double em = p->em, width = p->rendering.width - 2.0 * edge * em;
+  const double share = fmax(label_share * p->rendering.width, narrowest_label * em);
+  int subtitles;
+  p->title_size = fg__page_fit_lines(p->line, FG__TITLE_LINES, &p->titles, ruler,
+                                     p->title, em, true, width);
+  p->subtitle_size =
+      fg__page_fit_lines(p->line + p->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
+                         &subtitles, ruler, p->subtitle, em, false, width);
+  p->lines = p->titles + subtitles;
+  p->label.size =
+      fg__page_fit_lines(p->label.line, FG__LABEL_LINES, &p->label.count, ruler,
+                         p->speed.label, em, false, fmin(share, widest_label * em));
+}
+
 /* The width that the caption needs. */
 static double caption_width(const solid_picture *p, cairo_t *ruler)
 {
-  return fmax(fg__text_width(ruler, p->title, p->em, true),
-              fg__text_width(ruler, p->subtitle, p->em, false)) +
-         2.0 * edge * p->em;
+  double widest = 0.0;
+  for (int n = 0; n < p->lines; ++n)
+    widest =
+        fmax(widest, n < p->titles
+                         ? fg__text_width(ruler, p->line[n], p->title_size, true)
+                         : fg__text_width(ruler, p->line[n], p->subtitle_size, false));
+  return widest + 2.0 * edge * p->em;
 }
 
 /* Sides that are not given are no longer than the box needs. */
@@ -224,8 +253,7 @@ static void lay_out(solid_picture *p, const fg_field_arrays *field,
                     const fg_solid_options *options)
 {
   cairo_t *ruler = fg__text_ruler();
-  fg__text_shorten(ruler, p->speed.label, sizeof p->speed.label, p->em, false,
-                   widest_label * p->em);
+  break_texts(p, ruler);
   fg__view_box_of(&p->rendering.view_box, field);
   p->has_key = p->has_key && has_room_for_key(p, ruler);
   const fg__pane used = fit(p, field, ruler);
@@ -294,32 +322,31 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
   return FG_STATUS_OK;
 }
 
-static void draw_line_of_text(const fg__writer *writer, char *text, double width,
-                              bool bold, double grey, double *y)
+static void draw_caption(fg__surface_file *surface, const solid_picture *p)
 {
-  const double em = writer->em;
-  if (!text[0])
-    return;
-  *y += line_height * em;
-  fg__text_shorten(writer->surface->cairo, text, FG__CAPTION_BYTES, em, bold, width);
-  fg__write_text(writer, text, (const double[2]){edge * em, *y}, bold, grey,
-                 FG__ALIGN_START);
+  double y = 0.4 * p->em;
+  for (int n = 0; n < p->lines; ++n) {
+    const bool bold = n < p->titles;
+    const fg__writer writer = {surface, bold ? p->title_size : p->subtitle_size,
+                               p->outline_text};
+    y += line_height * p->em;
+    fg__write_text(&writer, p->line[n], (const double[2]){edge * p->em, y}, bold,
+                   bold ? title_grey : subtitle_grey, FG__ALIGN_START);
+  }
 }
 
-static void draw_words(fg__surface_file *surface, solid_picture *p)
+static void draw_words(fg__surface_file *surface, const solid_picture *p)
 {
   const fg__rendering *r = &p->rendering;
   const fg__writer writer = {surface, p->em, p->outline_text};
-  double em = p->em, y = 0.4 * em, width = r->width - 2.0 * edge * em;
   if (p->has_key) {
     const fg__pane pane = key_pane(p, surface->cairo);
     bool beyond[2];
     fg__speeds_beyond(beyond, r->icons, r->range);
-    fg__color_bar_draw(&writer, &pane, &p->palette, &p->speed, beyond);
+    fg__color_bar_draw(&writer, &pane, &p->palette, &p->speed, &p->label, beyond);
   }
   fg__box_axes_draw(&writer, &p->axes, &r->view_box, &r->camera);
-  draw_line_of_text(&writer, p->title, width, true, title_grey, &y);
-  draw_line_of_text(&writer, p->subtitle, width, false, subtitle_grey, &y);
+  draw_caption(surface, p);
 }
 
 /* Renders the arrows to an image; it is to be destroyed. */
