@@ -218,20 +218,10 @@ static fg_status open_exodus(fg__vtk *out, fg_context *context, const fg__source
   return status;
 }
 
-static fg_status describe(fg_inventory *inventory, fg_context *context,
-                          const fg__source *source)
-{
-  return fg__vtk_inventory(inventory, context, source, open_exodus);
-}
-
-static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options, fg__slab_index slab)
-{
-  return fg__vtk_read(out, context, source, options, slab, open_exodus);
-}
+FG__VTK_HOOKS(open_exodus)
 
 const fg__format fg__format_exodus = {.name = "Exodus",
                                       .files = "Exodus II (.exo, .e)",
                                       .is_mine = is_exodus,
-                                      .inventory = describe,
-                                      .read = read_field};
+                                      .inventory = inventory_hook,
+                                      .read = read_hook};

@@ -471,20 +471,10 @@ fg_status fg__vtk_open_legacy(fg__vtk *out, fg_context *context, const fg__sourc
   return status == FG_STATUS_OK ? read_sections(&file) : status;
 }
 
-static fg_status describe(fg_inventory *inventory, fg_context *context,
-                          const fg__source *source)
-{
-  return fg__vtk_inventory(inventory, context, source, fg__vtk_open_legacy);
-}
-
-static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
-                            const fg_read_options *options, fg__slab_index slab)
-{
-  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_legacy);
-}
+FG__VTK_HOOKS(fg__vtk_open_legacy)
 
 const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
                                           .is_mine = fg__is_vtk_legacy,
-                                          .inventory = describe,
-                                          .read = read_field,
+                                          .inventory = inventory_hook,
+                                          .read = read_hook,
                                           .tensors = fg__tensors_of_vtk};

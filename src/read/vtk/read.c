@@ -221,12 +221,6 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   return status;
 }
 
-static fg_status read_xml(fg_field **out, fg_context *context, const fg__source *source,
-                          const fg_read_options *options, fg__slab_index slab)
-{
-  return fg__vtk_read(out, context, source, options, slab, fg__vtk_open_any);
-}
-
 /* What can only be decoded together is so once, not again for each of its parts. */
 static size_t counted_at_once(const fg__vtk *vtk, const fg__vtk_vector *vector)
 {
@@ -377,11 +371,7 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-static fg_status describe_xml(fg_inventory *inventory, fg_context *context,
-                              const fg__source *source)
-{
-  return fg__vtk_inventory(inventory, context, source, fg__vtk_open_any);
-}
+FG__VTK_HOOKS(fg__vtk_open_any)
 
 const fg__format fg__format_vti = {
     .name = "VTK XML",
@@ -390,6 +380,6 @@ const fg__format fg__format_vti = {
         "(.vti, .vtr, .vts, .vtu, .vtp), legacy files of them (.vtk), and files that "
         "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd)",
     .is_mine = fg__is_vtk_xml,
-    .inventory = describe_xml,
-    .read = read_xml,
+    .inventory = inventory_hook,
+    .read = read_hook,
     .tensors = fg__tensors_of_vtk};

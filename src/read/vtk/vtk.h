@@ -320,6 +320,21 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
 fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
                             const fg__source *source, fg__vtk_opener *opener);
 
+/* Defines `inventory_hook` and `read_hook` of a format (read/format.h) whose files
+ * `opener` opens. */
+#define FG__VTK_HOOKS(opener)                                                            \
+  static fg_status inventory_hook(fg_inventory *inventory, fg_context *context,          \
+                                  const fg__source *source)                              \
+  {                                                                                      \
+    return fg__vtk_inventory(inventory, context, source, opener);                        \
+  }                                                                                      \
+  static fg_status read_hook(fg_field **out, fg_context *context,                        \
+                             const fg__source *source, const fg_read_options *options,   \
+                             fg__slab_index slab)                                        \
+  {                                                                                      \
+    return fg__vtk_read(out, context, source, options, slab, opener);                    \
+  }
+
 /* A tensor array as fields of the matrix's rows; *found: there is one. FILE_FORMAT,
  * UNSUPPORTED, ARGUMENT (not symmetric), MEMORY. */
 fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
