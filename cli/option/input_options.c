@@ -21,7 +21,7 @@ static const option_entry input_entries[] = {
          "the two or three variables, or one vector variable [found by their standard or "
          "usual names; an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
-     .help = "second file, which holds the other component"},
+     .help = "second file, which holds the other component, the positions, or the mesh"},
     {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_text),
      .help = "which time: a whole number is an index, from 0; a number with a unit or a "
              "point is a value, 3.5h; a date is the first time within it, 1982-07, "

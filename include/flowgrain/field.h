@@ -30,7 +30,8 @@ typedef enum fg_frame {
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
-  const char *vars_from; /* second file, with the other component(s); NULL: none */
+  const char *vars_from; /* second file, with the other component(s), the positions or
+                            the mesh; NULL: none */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
   const char *mask;      /* variable that is zero, negative or missing outside the domain;

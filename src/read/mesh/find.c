@@ -58,10 +58,20 @@ static void find_positions(fg__nc_part *part, const fg__nc_file *file)
   }
 }
 
-static bool has_dimensions(const fg__nc_part *part, const int dimension[2])
+/* Whether a part has the dimensions; those of another file may have their names. Not so
+ * where components are of two files: there each has the positions of its own faces
+ * (NEMO). */
+static bool has_dimensions(const fg__nc_mesh *mesh, const fg__nc_file *file,
+                           const fg__nc_part *part, const int dimension[2])
 {
-  return part->grid.axis[0].dimension == dimension[0] &&
-         part->grid.axis[1].dimension == dimension[1];
+  const bool one_file = mesh->part[0].variable->file == mesh->part[1].variable->file;
+  for (int k = 0; k < 2; ++k) {
+    const int own = part->grid.axis[k].dimension;
+    if (own != dimension[k] &&
+        !(one_file && fg__nc_alike_dimension(file, own, dimension[k])))
+      return false;
+  }
+  return true;
 }
 
 static bool names_centres(const fg__nc_variable *v)
@@ -84,7 +94,7 @@ static bool find_centres(fg__nc_mesh *mesh, const fg__nc_file *file)
       if (v->rank < 2 || v->rank > 3 || !fg__nc_is_array(v) ||
           fg__nc_geographic(v) != FG__NC_X || !set_part(&part, file, v))
         continue;
-      if (strict ? !has_dimensions(&part, dimension)
+      if (strict ? !has_dimensions(mesh, file, &part, dimension)
                  : part.grid.axis[0].size != mesh->size[0] ||
                        part.grid.axis[1].size != mesh->size[1] || !names_centres(v))
         continue;

@@ -206,6 +206,86 @@ static void levels_in_two_files(void **state)
   unlink(second);
 }
 
+/* Adds coordinates along two dimensions of a file, which are true for no point. */
+static void add_nominal_axes(sample_file *f, const char *const name[2], double shift)
+{
+  static const char *const units[2] = {"degrees_north", "degrees_east"};
+  nc_must(nc_open(f->path, NC_WRITE, &f->id));
+  for (int k = 0; k < 2; ++k) {
+    double nominal[ROWS + COLUMNS];
+    int dimension;
+    for (int n = 0; n < ROWS + COLUMNS; ++n)
+      nominal[n] = STEP * (n + shift);
+    nc_must(nc_inq_dimid(f->id, name[k], &dimension));
+    const int id = sample_variable(f, name[k], NC_DOUBLE, 1, &dimension);
+    sample_text(f, id, "units", units[k]);
+    sample_text(f, id, "long_name", "point nominal place");
+    sample_put(f, id, nominal);
+  }
+  sample_end(f);
+}
+
+/* MOM5: the positions are those that `coordinates` names. */
+static void nominal_axes_are_not_positions(void **state)
+{
+  static const model_variable mom5[] = {
+      LONLAT("geolon_c", "geolat_c", "yu_ocean", "xu_ocean", 0, 0, 0.0, 0.0),
+      {"u",
+       ALONG_I,
+       "yu_ocean",
+       "xu_ocean",
+       0,
+       0,
+       0.0,
+       0.0,
+       {"standard_name", "sea_water_x_velocity", "coordinates", "geolon_c geolat_c"}},
+      {"v",
+       ALONG_J,
+       "yu_ocean",
+       "xu_ocean",
+       0,
+       0,
+       0.0,
+       0.0,
+       {"standard_name", "sea_water_y_velocity", "coordinates", "geolon_c geolat_c"}},
+      {0}};
+  sample_file *f = *state;
+  write_model(f, mom5);
+  add_nominal_axes(f, (const char *const[]){"yu_ocean", "xu_ocean"}, 0.0);
+  fg_field *field = read_with(f, NULL);
+  assert_flow(field, 400);
+  fg_field_destroy(field);
+}
+
+/* MOM6: components in one file with nominal axes, and what places and turns them in
+ * another. */
+static void positions_in_a_second_file(void **state)
+{
+  const model_variable components[] = {MOM6[4], MOM6[5], {0}};
+  const model_variable positions[] = {MOM6[0], MOM6[1], MOM6[2], MOM6[3],
+                                      MOM6[6], MOM6[7], {0}};
+  sample_file *f = *state;
+  char second[128];
+  snprintf(second, sizeof second, "%s.static", f->path);
+  write_model(f, positions);
+  assert_int_equal(rename(f->path, second), 0);
+  write_model(f, components);
+  add_nominal_axes(f, (const char *const[]){"yh", "xh"}, 0.0);
+  add_nominal_axes(f, (const char *const[]){"yq", "xq"}, 0.5);
+  const fg_read_options both = {.vars_from = second};
+  fg_field *field = read_with(f, &both);
+  assert_flow(field, 400);
+  fg_field_destroy(field);
+  fg_read_defaults alone, together;
+  assert_int_equal(fg_read_defaults_find(&alone, f->context, f->path, NULL),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_read_defaults_find(&together, f->context, f->path, &both),
+                   FG_STATUS_OK);
+  assert_non_null(strstr(alone.absent, "nominal"));
+  assert_string_equal(together.absent, "");
+  unlink(second);
+}
+
 /* Land west of column 6 is only in the mask; velocities are zero there. */
 static void masks_keep_land_out(void **state)
 {
@@ -322,10 +402,15 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(models_are_read),     CASE(two_files_of_one_shape),
-      CASE(masks_keep_land_out), CASE(frames_may_be_given),
-      CASE(seams_close),         CASE(faces_need_centres),
+      CASE(models_are_read),
+      CASE(two_files_of_one_shape),
+      CASE(masks_keep_land_out),
+      CASE(frames_may_be_given),
+      CASE(seams_close),
+      CASE(faces_need_centres),
       CASE(levels_in_two_files),
+      CASE(nominal_axes_are_not_positions),
+      CASE(positions_in_a_second_file),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

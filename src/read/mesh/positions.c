@@ -255,10 +255,13 @@ static void shift_by_words(bool *found, fg__nc_mesh *mesh, const fg__nc_file *fi
     }
 }
 
-/* Whether positions can determine the side of the centres on which a component lies. */
+/* Whether the side of the centres on which a component lies may follow from positions:
+ * nominal ones along its axes are not comparable with true ones. */
 static bool may_be_compared(const fg__nc_mesh *mesh, int k)
 {
-  return mesh->part[k].grid.axis[k].size == mesh->size[k] && mesh->part[k].longitude;
+  const fg__nc_variable *own = mesh->part[k].longitude;
+  return mesh->part[k].grid.axis[k].size == mesh->size[k] && own &&
+         (own->rank == 1) == (mesh->centre.longitude->rank == 1);
 }
 
 bool fg__nc_shift_by_size(fg__nc_mesh *mesh, const fg__nc_file *file, int k)

@@ -24,7 +24,8 @@ static fg_status read_coordinates(const fg__nc_axis *axis, const fg__nc_file *fi
   size_t start[FG__NC_RANK] = {0};
   size_t size[FG__NC_RANK];
   for (int k = 0; k < coordinate->rank; ++k) {
-    const bool along = coordinate->dimension[k] == axis->dimension;
+    const bool along =
+        fg__nc_alike_dimension(file, coordinate->dimension[k], axis->dimension);
     start[k] = along ? axis->first : 0;
     size[k] = along ? axis->size : 1;
   }

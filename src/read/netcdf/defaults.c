@@ -1,7 +1,7 @@
 /* The default level of a vector, and coordinates that its components refer to but the
  * file does not have. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/mesh/mesh.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,6 +107,22 @@ static void list_absent(char *out, size_t size, const fg__nc_file *file,
       add_name(out, size, name);
 }
 
+/* Whether the field is placed by longitudes along its x axis that say that they are
+ * nominal (MOM6), which they are where the grid's lines bend. */
+static bool is_placed_nominally(const fg__nc_file *file, const fg__nc_variable *u,
+                                const fg__nc_grid *grid)
+{
+  char text[FG__NC_TEXT];
+  const fg__nc_mesh *mesh = grid->mesh;
+  if (grid->unstructured || grid->scale != FG_SCALE_GEO ||
+      (mesh && !(mesh->centre.longitude && mesh->centre.longitude->rank == 1)))
+    return false;
+  const int k = mesh ? mesh->part[0].grid.axis[0].position : grid->axis[0].position;
+  const fg__nc_variable *along = fg__nc_coordinate(file, u, k);
+  return along && fg__nc_text(along, "long_name", text, sizeof text) &&
+         strstr(text, "nominal");
+}
+
 fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
                           const fg__nc_pair *pair, const fg__nc_grid *grid,
                           const fg_read_options *options)
@@ -117,5 +133,8 @@ fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
   if (grid->scale == FG_SCALE_PLAIN && options->scale != FG_SCALE_PLAIN &&
       !grid->unstructured)
     list_absent(out->absent, sizeof out->absent, file, pair->component[0]);
+  if (is_placed_nominally(file, pair->component[0], grid))
+    snprintf(out->absent, sizeof out->absent,
+             "true longitudes and latitudes (those of its axes are nominal)");
   return find_level(&out->level, file, grid);
 }

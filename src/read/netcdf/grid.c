@@ -111,7 +111,11 @@ static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
     coordinate[k] = fg__nc_axis_coordinate(file, grid, v, k);
     both = both && coordinate[k] && !fg__nc_counts(coordinate[k]);
   }
-  if (!both) {
+  /* longitudes and latitudes along the axes may be nominal (MOM) */
+  const bool nominal = both && fg__nc_geographic(coordinate[0]) == FG__NC_X &&
+                       fg__nc_geographic(coordinate[1]) == FG__NC_Y &&
+                       fg__nc_names_plane(grid, file, v);
+  if (!both || nominal) {
     bool found = false;
     fg_status status = fg__nc_plane_find(grid, file, v, &found);
     if (status != FG_STATUS_OK || found || !is_usable(grid))

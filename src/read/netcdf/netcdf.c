@@ -27,6 +27,18 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   return status;
 }
 
+/* Whether positions of a curvilinear grid, its angle or its mask are in the second file.
+ */
+static bool uses_second(const fg__nc_mesh *mesh)
+{
+  const fg__nc_variable *all[] = {mesh->centre.variable, mesh->part[0].longitude,
+                                  mesh->part[1].longitude, mesh->angle[0], mesh->mask};
+  for (size_t n = 0; n < sizeof all / sizeof *all; ++n)
+    if (all[n] && all[n]->file == 1)
+      return true;
+  return false;
+}
+
 /* Components are searched in both files. When neither they, their mesh nor the mask are
  * in the second file, it is refused as the wrong file. */
 static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
@@ -34,6 +46,7 @@ static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
 {
   const fg__nc_variable *masked = mask ? fg__nc_find(file, mask) : NULL;
   bool used = file->root_count < 2 || (masked && masked->file == 1) ||
+              (grid->mesh && uses_second(grid->mesh)) ||
               (grid->unstructured && fg__nc_unstructured_file(grid->unstructured) == 1);
   for (int k = 0; k < 3; ++k)
     used = used || (pair->component[k] && pair->component[k]->file == 1);

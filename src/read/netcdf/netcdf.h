@@ -276,13 +276,20 @@ fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found);
 
+/* Whether two dimensions are one, or have the same name and length in two files. */
+bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
+
 /* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
- * dimensions and perhaps one for each time. One that the attribute `coordinates` names is
- * preferred. NULL: there is none. */
+ * dimensions and perhaps one for each time. One of the same file is preferred, then one
+ * that the attribute `coordinates` names. NULL: there is none. */
 const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
                                                const fg__nc_file *file,
                                                const fg__nc_variable *variable,
                                                fg__nc_role role);
+
+/* Whether the variable's attribute `coordinates` names both of them. */
+bool fg__nc_names_plane(const fg__nc_grid *grid, const fg__nc_file *file,
+                        const fg__nc_variable *variable);
 
 /* projection.c. Finds the PROJ string of axes in a projection or about a rotated pole
  * from the variable's grid mapping. Where the file's longitudes and latitudes contradict

@@ -383,9 +383,10 @@ static bool add_pair(pair_list *pairs, const fg__nc_file *file, const pattern *x
   return true;
 }
 
-/* Pairs the patterns first ... end - 1, which are equal. */
+/* Pairs the patterns first ... end - 1, which are equal. apart: components of two files
+ * are in one each. */
 static bool pair_group(pair_list *pairs, const fg__nc_file *file,
-                       const pattern_list *list, size_t first, size_t end)
+                       const pattern_list *list, size_t first, size_t end, bool apart)
 {
   size_t middle = first;
   while (middle < end && list->entry[middle].component == 0)
@@ -398,8 +399,7 @@ static bool pair_group(pair_list *pairs, const fg__nc_file *file,
       shape_found = same_shape(u, &file->variables[list->entry[y].variable]);
     for (size_t y = middle; y < end; ++y) {
       const fg__nc_variable *v = &file->variables[list->entry[y].variable];
-      if (file->root_count == 2 && u->file == v->file &&
-          !fg__nc_unstructured_elsewhere(file, u))
+      if (apart && u->file == v->file && !fg__nc_unstructured_elsewhere(file, u))
         continue;
       if (shape_found && !same_shape(u, v))
         continue;
@@ -411,6 +411,20 @@ static bool pair_group(pair_list *pairs, const fg__nc_file *file,
     }
   }
   return true;
+}
+
+static bool pair_groups(pair_list *pairs, const fg__nc_file *file,
+                        const pattern_list *list, bool apart)
+{
+  bool memory = true;
+  for (size_t first = 0; first < list->count && memory;) {
+    size_t end = first + 1;
+    while (end < list->count && strcmp(list->entry[end].key, list->entry[first].key) == 0)
+      ++end;
+    memory = pair_group(pairs, file, list, first, end, apart);
+    first = end;
+  }
+  return memory;
 }
 
 /* Vector variables, which file.c lists as two in a row. */
@@ -452,13 +466,9 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
   bool memory = list_patterns(&list, file);
   if (list.count > 0)
     qsort(list.entry, list.count, sizeof *list.entry, compare_patterns);
-  for (size_t first = 0; first < list.count && memory;) {
-    size_t end = first + 1;
-    while (end < list.count && strcmp(list.entry[end].key, list.entry[first].key) == 0)
-      ++end;
-    memory = pair_group(&pairs, file, &list, first, end);
-    first = end;
-  }
+  memory = memory && pair_groups(&pairs, file, &list, file->root_count == 2);
+  if (pairs.count == 0 && file->root_count == 2) /* the second has positions or a mask */
+    memory = memory && pair_groups(&pairs, file, &list, false);
   free(list.entry);
   memory = memory && add_vectors(&pairs, file);
   if (!memory) {

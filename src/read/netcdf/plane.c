@@ -31,13 +31,23 @@ static const int *last_dimensions(const fg__nc_variable *v)
   return v->dimension + v->rank - 2;
 }
 
+bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b)
+{
+  const fg__nc_dimension *of = file->dimensions;
+  return a == b || (of[a].root != of[b].root && of[a].length == of[b].length &&
+                    strcmp(of[a].name, of[b].name) == 0);
+}
+
 /* Time may be the first dimension: WRF repeats the coordinates for every time. */
-static bool lies_in_plane(const fg__nc_variable *v, int x, int y)
+static bool lies_in_plane(const fg__nc_file *file, const fg__nc_variable *v, int x, int y)
 {
   if (v->rank < 2 || v->rank > 3 || v->type == NC_CHAR || v->type > NC_UINT64)
     return false;
   const int *last = last_dimensions(v);
-  return (last[0] == x && last[1] == y) || (last[0] == y && last[1] == x);
+  return (fg__nc_alike_dimension(file, last[0], x) &&
+          fg__nc_alike_dimension(file, last[1], y)) ||
+         (fg__nc_alike_dimension(file, last[0], y) &&
+          fg__nc_alike_dimension(file, last[1], x));
 }
 
 const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
@@ -50,16 +60,32 @@ const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
   const int x = grid->axis[0].dimension;
   const int y = grid->axis[1].dimension;
   const fg__nc_variable *found = NULL;
+  int best = -1;
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    if (!lies_in_plane(v, x, y) || fg__nc_geographic(v) != role)
+    if (!lies_in_plane(file, v, x, y) || fg__nc_geographic(v) != role)
       continue;
-    if (is_listed(listed, v->plain_name))
-      return v;
-    if (!found)
+    const int rank = 2 * (v->file == variable->file) + is_listed(listed, v->plain_name);
+    if (rank > best) {
+      best = rank;
       found = v;
+    }
   }
   return found;
+}
+
+bool fg__nc_names_plane(const fg__nc_grid *grid, const fg__nc_file *file,
+                        const fg__nc_variable *variable)
+{
+  char listed[FG__NC_TEXT];
+  fg__nc_text(variable, "coordinates", listed, sizeof listed);
+  for (int role = FG__NC_X; role <= FG__NC_Y; ++role) {
+    const fg__nc_variable *v =
+        fg__nc_plane_coordinate(grid, file, variable, (fg__nc_role)role);
+    if (!v || !is_listed(listed, v->plain_name))
+      return false;
+  }
+  return true;
 }
 
 static fg_status read_plane(plane *out, const fg__nc_file *file)
@@ -143,7 +169,7 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
              "--scale plain reads it on its index grid, columns and rows as the axes");
     goto cleanup;
   }
-  if (grid->axis[0].dimension != dimension[x]) {
+  if (!fg__nc_alike_dimension(file, grid->axis[0].dimension, dimension[x])) {
     const fg__nc_axis swapped = grid->axis[0];
     grid->axis[0] = grid->axis[1];
     grid->axis[1] = swapped;
