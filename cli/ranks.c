@@ -57,7 +57,7 @@ int ranks_count(void)
   return count;
 }
 
-/* Statuses that fg_context_agree distinguishes from success, a stop and misuse. */
+/* Statuses that fg_ranks_agree distinguishes from success, a stop and misuse. */
 static fg_status status_of(int code)
 {
   switch (code) {
