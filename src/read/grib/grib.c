@@ -366,13 +366,14 @@ static fg_status list_values(axis_values out[2], fg_context *context,
   return status;
 }
 
-static void describe_grid(fg_inventory_vector *vector, fg__grib_grid *grid)
+static void describe_grid(fg_inventory_vector *vector, const fg__grib_grid *grid)
 {
+  double period = grid->period;
   vector->size[0] = (int)grid->size[0];
   vector->size[1] = (int)grid->size[1];
   if (grid->axis[0])
-    vector->size[0] = (int)count_columns(grid, &grid->period);
-  vector->periodic[0] = grid->period > 0.0;
+    vector->size[0] = (int)count_columns(grid, &period);
+  vector->periodic[0] = period > 0.0;
   for (int k = 0; k < 2 && !grid->row && !grid->rotated; ++k)
     if (grid->axis[k]) {
       vector->bounds[2 * k] = grid->axis[k][0];

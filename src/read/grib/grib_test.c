@@ -74,6 +74,10 @@ static void a_gaussian_grid(void **state)
   assert_int_equal(a->size[1], 64);
   assert_int_equal(assert_flow(field, NULL, 1e-4), 0);
   fg_field_destroy(field);
+  fg_inventory *inventory;
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  assert_true(fg_inventory_vector_at(inventory, 0)->periodic[0]);
+  fg_inventory_destroy(inventory);
 }
 
 /* Sampled on the sphere by triangles between rows, or cells of a grid with another pole.

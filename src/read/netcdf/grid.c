@@ -63,6 +63,9 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
     fg__set_unusable(grid->unusable,
                      "dimension '%.120s' of %zu samples is neither time nor level",
                      d->name, d->length);
+    snprintf(grid->hint, sizeof grid->hint,
+             "one of them can be read by itself, as cut out by ncks -d %.80s,0 IN OUT",
+             d->name);
     return;
   }
   if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0) {
