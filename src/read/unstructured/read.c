@@ -1,11 +1,13 @@
 /* Fields of unstructured meshes: vectors and a mask read, cells made, on the sphere or in
  * the plane. */
 #include "base/memory.h"
+#include "map/map.h"
 #include "read/cells/set.h"
 #include "read/points/points.h"
 #include "read/unstructured/unstructured.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -255,6 +257,24 @@ static fg_status add_cells(fg__cell_set *set, const fg__sphere_cells *cells)
   return status;
 }
 
+/* FVCOM has a PROJ string as an attribute of its file, "proj=utm +ellps=WGS84 +zone=19",
+ * or words that are none. */
+static void find_model_projection(fg__nc_grid *plane, const fg__nc_file *file,
+                                  const fg__nc_variable *at)
+{
+  char text[FG__NC_TEXT], projection[FG__NC_TEXT + 1];
+  const fg__nc_variable root = {
+      .owner = at->owner, .group = file->roots[at->file], .id = NC_GLOBAL};
+  if (!fg__nc_text(&root, "CoordinateProjection", text, sizeof text) ||
+      strncmp(text, "proj=", 5) != 0)
+    return;
+  snprintf(projection, sizeof projection, "+%s", text);
+  fg__map *map = NULL;
+  if (fg__map_create(&map, NULL, projection) == FG_STATUS_OK)
+    snprintf(plane->projection, sizeof plane->projection, "%s", fg__map_projection(map));
+  fg__map_destroy(map);
+}
+
 /* The axes' words and what the file says of its projection. */
 static fg_status name_axes(fg__nc_grid *plane, fg_field_arrays *texts, const request *r)
 {
@@ -281,6 +301,8 @@ static fg_status name_axes(fg__nc_grid *plane, fg_field_arrays *texts, const req
   fg_status status = fg__nc_projection_find(plane, r->file, r->pair->component[0]);
   if (status == FG_STATUS_OK && !plane->projection[0])
     status = fg__nc_projection_find(plane, r->file, at[0]);
+  if (status == FG_STATUS_OK && !plane->projection[0])
+    find_model_projection(plane, r->file, at[0]);
   if (plane->projection[0])
     texts->projection = plane->projection;
   return status;

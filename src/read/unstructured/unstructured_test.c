@@ -212,6 +212,7 @@ static void fvcom_in_metres(void **state)
   for (size_t n = 0; n < m.faces; ++n)
     wet[n] = n % SIDE < 4 ? 0.0 : 1.0;
   put(f, "wet_cells", NC_INT, 1, &cells[2], wet, NOTHING);
+  sample_text(f, NC_GLOBAL, "CoordinateProjection", "proj=utm +ellps=WGS84 +zone=19");
   for (int k = 0; k < 2; ++k) {
     for (size_t n = 0; n < 2 * m.faces; ++n)
       values[n] = (centre[k][n % m.faces] + 2.0 * centre[1 - k][n % m.faces]) *
@@ -228,6 +229,8 @@ static void fvcom_in_metres(void **state)
     size_t found = 0;
     assert_int_equal(a->scale, FG_SCALE_MAP);
     assert_string_equal(a->axis_units[0], "m");
+    if (fg_has_feature(FG_FEATURE_MAPS))
+      assert_string_equal(a->projection, "+proj=utm +ellps=WGS84 +zone=19");
     assert_true(a->axis[0][0] > WEST + 3.0 * STEP);
     for (int n = 0; n < a->size[0] * a->size[1]; ++n) {
       const double x = a->axis[0][n % a->size[0]], y = a->axis[1][n / a->size[0]];
