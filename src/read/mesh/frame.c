@@ -129,6 +129,14 @@ static bool is_of_nemo(const fg__nc_variable *u)
   return starts_with(u->plain_name, "vozo") || starts_with(u->plain_name, "sozo");
 }
 
+/* WRF's variables, but not those that its tools have turned ("earth rotated u,v"). */
+static bool is_of_wrf(const fg__nc_variable *u)
+{
+  char text[FG__NC_TEXT];
+  return fg__nc_text(u, "MemoryOrder", text, sizeof text) && text[0] == 'X' &&
+         !(fg__nc_text(u, "description", text, sizeof text) && contains(text, "earth"));
+}
+
 static bool is_staggered(const fg__nc_mesh *mesh)
 {
   return mesh->shift[0] != 0 || mesh->shift[1] != 0;
@@ -166,12 +174,14 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
   } else if (word && !is_staggered(mesh)) {
     frame = 1;
     snprintf(why, sizeof why, "its name says %s", word);
-  } else if (angle || is_staggered(mesh) || is_of_nemo(u) || is_on_indices(mesh, file)) {
+  } else if (angle || is_staggered(mesh) || is_of_nemo(u) || is_of_wrf(u) ||
+             is_on_indices(mesh, file)) {
     frame = -1;
     snprintf(why, sizeof why, "%s",
              is_staggered(mesh) ? "a staggered grid"
              : angle            ? "the file has the grid's angle"
              : is_of_nemo(u)    ? "NEMO's names"
+             : is_of_wrf(u)     ? "WRF's attributes"
                                 : "its dimensions count cells");
   }
   if (frame > 0)

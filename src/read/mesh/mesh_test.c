@@ -111,6 +111,13 @@ static const model_variable ROMS_EAST[] = {
     {"angle", ANGLE, "eta_rho", "xi_rho", 0, 0, 0.0, 0.0, {"units", "radians"}},
     {0}};
 
+/* a file cut out of WRF's, without COSALPHA */
+static const model_variable WRF_CUT[] = {
+    LONLAT("XLONG", "XLAT", "south_north", "west_east", 0, 0, 0.0, 0.0),
+    {"U10", ALONG_I, "south_north", "west_east", 0, 0, 0.0, 0.0, {"MemoryOrder", "XY "}},
+    {"V10", ALONG_J, "south_north", "west_east", 0, 0, 0.0, 0.0, {"MemoryOrder", "XY "}},
+    {0}};
+
 static const model_variable HYCOM[] = {
     LONLAT("Longitude", "Latitude", "Y", "X", 0, 0, 0.0, 0.0),
     {"u",
@@ -145,6 +152,7 @@ static void models_are_read(void **state)
                 {POP, "turned by 'ANGLE' (the file has the grid's angle)"},
                 {POP_EAST, "east and north (its name says zonal)"},
                 {ROMS_EAST, "east and north (its name says eastward)"},
+                {WRF_CUT, "turned by its positions (WRF's attributes)"},
                 {HYCOM, "east and north (standard_name eastward_sea_water_velocity)"}};
   sample_file *f = *state;
   for (size_t n = 0; n < sizeof models / sizeof *models; ++n) {

@@ -104,12 +104,46 @@ static void texts_that_are_no_dates_are_passed_over(void **state)
   }
 }
 
+/* The steps of a forecast (cfgrib) have dates beside them; the levels of a reanalysis are
+ * air pressure, of which the first is read. */
+static void dates_stand_beside_steps(void **state)
+{
+  enum { STEPS = 2, LEVELS = 3 };
+  static const double hours[STEPS] = {0.0, 6.0}, pressure[LEVELS] = {1000, 500, 250};
+  static double values[STEPS * LEVELS * COUNT];
+  sample_file *f = *state;
+  for (int n = 0; n < STEPS * LEVELS * COUNT; ++n)
+    values[n] = n / (LEVELS * COUNT) + 1.0;
+  sample_begin(f, 0);
+  const int step = sample_axis(f, "step", STEPS, hours, "hours");
+  const int level = sample_axis(f, "level", LEVELS, pressure, "millibar");
+  const int y = sample_axis(f, "y", NY, Y, "km"), x = sample_axis(f, "x", NX, X, "km");
+  const int all[4] = {step, level, y, x};
+  const int date = sample_variable(f, "valid_time", NC_DOUBLE, 1, &step);
+  sample_text(f, date, "units", "hours since 2024-05-01");
+  int level_variable;
+  nc_must(nc_inq_varid(f->id, "level", &level_variable));
+  sample_text(f, level_variable, "positive", "down");
+  const int u = sample_variable(f, "u", NC_FLOAT, 4, all);
+  const int v = sample_variable(f, "v", NC_FLOAT, 4, all);
+  sample_put(f, date, hours);
+  sample_put(f, u, values);
+  sample_put(f, v, values);
+  sample_end(f);
+  assert_time(f, 1, "2024-05-01 06:00");
+  fg_read_defaults defaults;
+  assert_int_equal(fg_read_defaults_find(&defaults, f->context, f->path, NULL),
+                   FG_STATUS_OK);
+  assert_int_equal(defaults.level, 0);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(dates_are_read_as_they_are_written),
       CASE(texts_that_are_no_dates_are_passed_over),
+      CASE(dates_stand_beside_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,8 +38,10 @@ static direction direction_in_ocean(const fg__nc_variable *coordinate,
   if (strcmp(name, "depth") == 0 ||
       (!name[0] && strncasecmp(coordinate->plain_name, "depth", 5) == 0))
     return positive == NEITHER ? DOWN : positive;
-  if (name[0] || fg__nc_units(units, label, sizeof label) != FG__NC_LENGTH ||
-      positive != UP)
+  const fg__nc_quantity quantity = fg__nc_units(units, label, sizeof label);
+  if (quantity == FG__NC_PRESSURE && strcmp(label, "dbar") != 0)
+    return NEITHER; /* air pressure increases downwards, too */
+  if (name[0] || quantity != FG__NC_LENGTH || positive != UP)
     return name[0] || positive != DOWN ? NEITHER : DOWN;
   for (size_t n = 0; n < count; ++n)
     if (value[n] > 0.0)

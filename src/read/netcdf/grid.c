@@ -42,6 +42,29 @@ static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
   snprintf(name, NC_MAX_NAME + 1, "%s", d->name);
 }
 
+static bool has_dates(const fg__nc_variable *v)
+{
+  char units[FG__NC_TEXT], label[FG__NC_TEXT];
+  fg__nc_text(v, "units", units, sizeof units);
+  return fg__nc_units(units, label, sizeof label) == FG__NC_DATE;
+}
+
+/* Where a coordinate of time has durations only (the steps of a forecast, cfgrib), the
+ * first variable along its dimension that has dates, such as valid_time. */
+static const fg__nc_variable *dates_beside(const fg__nc_file *file,
+                                           const fg__nc_variable *coordinate)
+{
+  if (has_dates(coordinate))
+    return coordinate;
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (v->rank == 1 && v->dimension[0] == coordinate->dimension[0] &&
+        fg__nc_is_array(v) && has_dates(v))
+      return v;
+  }
+  return coordinate;
+}
+
 void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_variable *v)
 {
@@ -49,6 +72,8 @@ void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                  grid->time_name);
   set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
                  grid->level_name);
+  if (grid->time >= 0 && grid->time_variable)
+    grid->time_variable = dates_beside(file, grid->time_variable);
   if (grid->time >= 0 && !grid->time_variable)
     grid->time_variable = fg__nc_date_texts(file, v->dimension[grid->time]);
 }
