@@ -9,8 +9,14 @@ static const double head_of_share = 0.2, head_of_length = 0.42;
  * body's: under three body widths a cone looks like an arrow's, not a mushroom's. */
 static const double head_aspect = 0.76, body_of_head = 0.36, tail_of_body = 0.35;
 
-/* The body's radius in radii of curvature: beyond 1 its sections would cross. */
-static const double largest_bend = 0.7;
+/* Over its own width a body turns by no more, radians: where its radius is 0.7 of the
+ * curve's; beyond 1 sections of a round bend would cross. An elbow, which is short, may
+ * be as sharp: its sections cross within the body. */
+static const double largest_turn = 1.4;
+
+/* Widths that are tried, each in the one before. If the last is too wide, the line has a
+ * corner, where no width helps. */
+static const double thinner = 0.95, thinnest = 0.4;
 
 /* The line under a head turns by no more, radians: a cone bent further is a claw. A head
  * is not made smaller than this share of itself for that. */
@@ -27,22 +33,28 @@ static double piece_of(const fg_icon *icon, int n, double along[3])
   return length;
 }
 
-/* Of the circle through a point and its neighbours, by the turning over the pieces'
- * mean length. */
-static double least_radius(const fg_icon *icon)
+/* Between two pieces of the line. */
+static double turn_between(const fg_icon *icon, int one, int other)
 {
-  double before[3], after[3], least = HUGE_VAL;
-  double length = piece_of(icon, 0, before);
-  for (int n = 1; n + 1 < icon->point_count; ++n) {
-    double next = piece_of(icon, n, after);
-    double turning = 2 * asin(fmin(fg__distance(before, after) / 2, 1));
-    if (turning > 0)
-      least = fmin(least, (length + next) / (2 * turning));
-    length = next;
-    for (int k = 0; k < 3; ++k)
-      before[k] = after[k];
+  double before[3], after[3];
+  piece_of(icon, one, before);
+  piece_of(icon, other, after);
+  return 2 * asin(fmin(fg__distance(before, after) / 2, 1));
+}
+
+/* Whether a body of that width turns too much somewhere. */
+static bool is_too_wide(const fg_icon *icon, double width)
+{
+  double ignored[3];
+  for (int n = 0; n + 1 < icon->point_count; ++n) {
+    double passed = 0;
+    for (int m = n + 1; m + 1 < icon->point_count && passed < width; ++m) {
+      if (turn_between(icon, n, m) > largest_turn)
+        return true;
+      passed += piece_of(icon, m, ignored);
+    }
   }
-  return least;
+  return false;
 }
 
 /* How far from the tip the line has turned by the angle that a head may span. */
@@ -69,7 +81,10 @@ void fg__solid_set_slender(fg_icon *icon, double lambda)
     double full = fmin(head_of_share * lambda, head_of_length * length);
     head = fmax(fmin(full, straight_end(icon)), least_head * full);
     double width = body_of_head * head_aspect * head;
-    head *= fmin(1, 2 * largest_bend * least_radius(icon) / width);
+    double factor = 1;
+    while (factor > thinnest && is_too_wide(icon, factor * width))
+      factor *= thinner;
+    head *= factor > thinnest ? factor : 1;
   }
   icon->head_length = head;
   icon->head_width = head_aspect * head;

@@ -71,6 +71,35 @@ static void bodies_and_heads_follow_narrow_bends(void **state)
   assert_true(ring.width / 2 < 0.71 * 0.02 && ring.width > 0.0);
 }
 
+/* Two straight halves with a bend of a radius between them. */
+static fg_icon elbow(double radius, double angle)
+{
+  enum { BENT = 21, SIDE = (POINTS - BENT) / 2 };
+  for (int n = 0; n < POINTS; ++n) {
+    const double t = angle * fmin(fmax((n - SIDE) / (BENT - 1.0), 0.0), 1.0);
+    const double before = 0.7 * fmin((double)(n - SIDE) / SIDE, 0.0);
+    const double after = 0.7 * fmax((double)(n - POINTS + 1 + SIDE) / SIDE, 0.0);
+    points[n][0] = before + radius * sin(t) + after * cos(t);
+    points[n][1] = 7.0;
+    points[n][2] = radius * (1.0 - cos(t)) + after * sin(t);
+  }
+  return (fg_icon){.point_count = POINTS, .points = (const double(*)[3])points};
+}
+
+static void an_elbow_leaves_the_head_as_it_is(void **state)
+{
+  (void)state;
+  fg_icon line = straight(1.4);
+  fg__solid_set_slender(&line, 1.0);
+  const double usual = line.head_length;
+  line = elbow(0.002, 1.2);
+  fg__solid_set_slender(&line, 1.0);
+  assert_true(fabs(line.head_length - usual) < 1e-3 * usual);
+  line = elbow(0.01, 3.0); /* a hairpin is no arrow's */
+  fg__solid_set_slender(&line, 1.0);
+  assert_true(line.head_length >= 0.4 * usual);
+}
+
 static void what_has_no_length_has_no_width(void **state)
 {
   (void)state;
@@ -113,6 +142,7 @@ int main(void)
       cmocka_unit_test(what_is_longer_is_no_thinner),
       cmocka_unit_test(bodies_and_heads_follow_narrow_bends),
       cmocka_unit_test(plump_arrows_become_slim),
+      cmocka_unit_test(an_elbow_leaves_the_head_as_it_is),
       cmocka_unit_test(what_has_no_length_has_no_width),
   };
   return cmocka_run_group_tests_name("icon/slender", tests, NULL, NULL);
