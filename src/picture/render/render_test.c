@@ -12,6 +12,21 @@ enum { WIDTH = 150, HEIGHT = 120 };
 static uint32_t image[HEIGHT][WIDTH], other[HEIGHT][WIDTH];
 
 /* A box of 4 x 4 x 2 with an arrow that stands in it, off the middle, leaning. */
+static fg_icons *list_of(const fg_icon *icon)
+{
+  fg_icons *icons = NULL;
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, icon), FG_STATUS_OK);
+  return icons;
+}
+
+static fg__palette red_palette(void)
+{
+  fg__palette red;
+  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  return red;
+}
+
 static fg_icons *make_icons(double turned, bool beyond)
 {
   double points[9][3];
@@ -29,10 +44,7 @@ static fg_icons *make_icons(double turned, bool beyond)
                   .head_length = 0.5,
                   .head_width = 0.7,
                   .speed = 1.0};
-  fg_icons *icons = NULL;
-  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
-  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
-  return icons;
+  return list_of(&icon);
 }
 
 static void set_view_box(fg__view_box *view_box, double period)
@@ -84,8 +96,7 @@ static void an_arrow_is_seen_where_it_is(void **state)
 {
   (void)state;
   fg_icons *icons = make_icons(0.0, false);
-  fg__palette red;
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const fg__palette red = red_palette();
   for (int view = 0; view < 12; ++view) {
     fg__rendering r = rendering_of(icons, &red, 30.0 * view, 10.0 * view - 55.0);
     assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
@@ -105,8 +116,7 @@ static void walls_lie_behind_and_take_shadows(void **state)
 {
   (void)state;
   fg_icons *icons = make_icons(0.0, false);
-  fg__palette red;
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const fg__palette red = red_palette();
   fg__rendering r = rendering_of(icons, &red, 25.0, 35.0);
   r.walls = true;
   assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
@@ -246,8 +256,7 @@ static void arrows_go_round_periods(void **state)
 {
   (void)state;
   fg_icons *icons = make_icons(0.0, true);
-  fg__palette red;
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const fg__palette red = red_palette();
   fg__rendering r = rendering_of(icons, &red, 10.0, 15.0);
   set_view_box(&r.view_box, 4.0);
   assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
@@ -268,12 +277,9 @@ static int light_pixels(double azimuth)
                         .head_length = 1.0,
                         .head_width = 0.8,
                         .speed = 1.0};
-  fg_icons *icons = NULL;
-  fg__palette red;
+  fg_icons *icons = list_of(&icon);
+  const fg__palette red = red_palette();
   int count = 0;
-  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
-  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
   fg__rendering r = rendering_of(icons, &red, azimuth, 0.0);
   assert_int_equal(fg__render(NULL, &r, image[0], WIDTH), FG_STATUS_OK);
   for (int y = 0; y < HEIGHT; ++y)
@@ -309,11 +315,8 @@ static void arrows_beside_a_period_are_whole(void **state)
                         .head_length = 0.6,
                         .head_width = 0.6,
                         .speed = 1.0};
-  fg_icons *icons = NULL;
-  fg__palette red;
-  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
-  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  fg_icons *icons = list_of(&icon);
+  const fg__palette red = red_palette();
   fg__rendering r = rendering_of(icons, &red, 10.0, 15.0);
   assert_int_equal(fg__render(NULL, &r, other[0], WIDTH), FG_STATUS_OK);
   set_view_box(&r.view_box, 4.0);
@@ -369,8 +372,7 @@ static void arrows_have_no_holes(void **state)
 {
   (void)state;
   fg_icons *icons = NULL;
-  fg__palette red;
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const fg__palette red = red_palette();
   assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
   double points[17][3];
   for (int n = 0; n < 17; ++n) {
@@ -411,8 +413,7 @@ static void far_arrows_take_nothing_away(void **state)
 {
   (void)state;
   fg_icons *near_one = make_icons(0.0, false), *both = make_icons(0.0, false);
-  fg__palette red;
-  assert_int_equal(fg__palette_create(&red, NULL, "#d02010"), FG_STATUS_OK);
+  const fg__palette red = red_palette();
   const double points[2][3] = {{12.0, -4e9, 5.2}, {12.0, 3.0, 6.9}};
   const fg_icon far_one = {.cluster = 2,
                            .point_count = 2,

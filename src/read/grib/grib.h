@@ -219,6 +219,10 @@ bool fg__grib_is_png(const unsigned char *png, size_t size);
  * samples. */
 bool fg__grib_jpeg_has(const unsigned char *jpeg, size_t size, uint64_t count);
 
+/* packing.c: whether section 5 has a block size, a reference interval and bits for each
+ * value that CCSDS' packing allows. */
+bool fg__grib_ccsds_is_sound(const unsigned char *packing, size_t size);
+
 /* packing.c: whether the groups of complex packing have so many values together, all in
  * the data; packing is section 5, data what follows the head of section 7. */
 bool fg__grib_groups_fit(const unsigned char *packing, size_t packing_size,

@@ -1,5 +1,6 @@
 /* Checks the numbers and sizes of packed values that ecCodes does not check: it would
- * write an image of JPEG 2000 beyond its buffer, and read groups beyond the message. */
+ * write an image of JPEG 2000 beyond its buffer, read groups beyond the message, and
+ * divide by the size of CCSDS' blocks. */
 #include "read/grib/grib.h"
 
 #include <string.h>
@@ -29,6 +30,17 @@ bool fg__grib_jpeg_has(const unsigned char *jpeg, size_t size, uint64_t count)
     samples *= samples_along(end[k], first[k], step);
   }
   return fg__grib_number(jpeg + 40, 2) == 1 && samples == count;
+}
+
+/* Octets 20, 23 and 24 to 25 of template 5.42; the ranges are those of CCSDS 121.0-B. */
+bool fg__grib_ccsds_is_sound(const unsigned char *packing, size_t size)
+{
+  if (size < 25)
+    return false;
+  const uint64_t bits = packing[19], block = packing[22];
+  const uint64_t interval = fg__grib_number(packing + 23, 2);
+  return bits <= 32 && (block == 8 || block == 16 || block == 32 || block == 64) &&
+         interval >= 1 && interval <= 4096;
 }
 
 /* Numbers of so many bits, one after the other, from a whole byte on. */

@@ -72,6 +72,8 @@ static const char *check_second_edition(const fg__grib_field *field, size_t poin
   if (template == 40 && size >= 21 && packing[19] > 0 && count > 0 &&
       !fg__grib_jpeg_has(data + 5, data_size - 5, count))
     return "its values are an image that is damaged, or of another size";
+  if (template == 42 && count > 0 && !fg__grib_ccsds_is_sound(packing, size))
+    return "the parameters of its CCSDS packing are out of range";
   if ((template == 2 || template == 3) && count > 0 &&
       !fg__grib_groups_fit(packing, size, data + 5, data_size - 5, count))
     return "its groups of values are not those of its grid, or cut off";
