@@ -74,9 +74,9 @@ static bool may_be_places(const fg__nc_search *search)
          search->file->dimensions[dimension].length > 2;
 }
 
-/* Says that the mesh of a variable is not there, where its attributes name one: `mesh` of
+/* Names the mesh of a variable where the file lacks it: by its attribute `mesh` of
  * UGRID, or CDI's word of its kind. */
-static void say_absent(fg__nc_search *search)
+static void name_absent(fg__nc_search *search)
 {
   char text[FG__NC_TEXT];
   const fg__nc_variable *u = search->u;
@@ -107,7 +107,7 @@ static bool recognise(fg__nc_unstructured *out, fg__nc_search *search)
         return true;
     }
   if (!search->lacks[0])
-    say_absent(search);
+    name_absent(search);
   return false;
 }
 

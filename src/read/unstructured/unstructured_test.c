@@ -412,8 +412,8 @@ static void vectors_of_one_variable(void **state)
   fg_inventory_destroy(inventory);
 }
 
-/* Vectors along one dimension, whose mesh is in a file that is not given: that is said,
- * instead of a plane of times or levels. */
+/* Vectors along one dimension, whose mesh is in a file that is not given: it is named,
+ * and no plane of times or levels is read. */
 static void absent_meshes_are_named(void **state)
 {
   static const struct {
