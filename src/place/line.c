@@ -39,11 +39,7 @@ typedef struct tracing {
 } tracing;
 
 /* One end of a line as it grows. */
-typedef struct tip {
-  fg__place_tip at;
-  double clearance;
-  double turned[3]; /* sum of turns as vectors, radians */
-} tip;
+typedef fg__place_step tip;
 
 /* Whether a line may go on to a place; adds up its turn. */
 static bool accept(const tracing *with, tip *next, const tip *from)
@@ -103,9 +99,29 @@ static void cut_break(side *line, double range)
     --line->count;
 }
 
-static void trace_side(side *line, tracing *with, const tip *seed, double sign,
-                       double way, double sampling)
+/* Takes the next full step of a side, from those taken before where it is there. */
+static bool step_on(side *line, tracing *with, fg__place_steps *steps, int which)
 {
+  const int n = line->count - 1;
+  const double sign = which ? 1.0 : -1.0;
+  tip *next = &line->sample[n + 1];
+  if (n < steps->count[which]) {
+    *next = steps->step[which][n];
+    with->move.step = next->trial_step;
+    return true;
+  }
+  if (!advance(with, next, &line->sample[n], sign * with->scale->sampling))
+    return false;
+  next->trial_step = with->move.step;
+  steps->step[which][n] = *next;
+  steps->count[which] = n + 1;
+  return true;
+}
+
+static void trace_side(side *line, tracing *with, const tip *seed, double way,
+                       fg__place_steps *steps, int which)
+{
+  const double sampling = with->scale->sampling, sign = which ? 1.0 : -1.0;
   double range = BREAK_RANGE * with->scale->lambda;
   line->sample[0] = *seed;
   line->at[0] = 0.0;
@@ -118,7 +134,8 @@ static void trace_side(side *line, tracing *with, const tip *seed, double sign,
     if (step < 0.05 * sampling)
       return;
     for (; halving < HALVINGS; ++halving, step /= 2.0)
-      if (advance(with, next, from, sign * step))
+      if (step < sampling ? advance(with, next, from, sign * step)
+                          : step_on(line, with, steps, which))
         break;
     if (halving == HALVINGS)
       return;
@@ -182,9 +199,10 @@ static void cut_hook(side *line, double range, double hook)
 
 /* Both sides of a seed; false: no line can be here. */
 static bool trace_both(side both[2], const fg__place_domain *domain,
-                       const fg__place_scale *scale, const fg__place_seed *seed)
+                       const fg__place_scale *scale, const fg__place_seed *seed,
+                       fg__place_steps *steps)
 {
-  tip start = {{{0}, {0}}, 0, {0}};
+  tip start = {.at = {{0}, {0}}};
   double sampling = scale->sampling;
   tracing with = {{domain, ERROR * scale->lambda, sampling, BREAK_COSINE}, scale, 0.0};
   memcpy(start.at.position, seed->position, sizeof start.at.position);
@@ -195,7 +213,7 @@ static bool trace_both(side both[2], const fg__place_domain *domain,
     return false;
   for (int n = 0; n < 2; ++n) {
     with.move.step = sampling;
-    trace_side(&both[n], &with, &start, n ? 1.0 : -1.0, seed->way[n], sampling);
+    trace_side(&both[n], &with, &start, seed->way[n], steps, n);
   }
   cut_hook(&both[1], BREAK_RANGE * scale->lambda, HOOK * scale->lambda);
   straighten_head(&both[1], BREAK_RANGE * scale->lambda);
@@ -228,9 +246,18 @@ static void take_samples(fg__place_line *out, const fg__place_domain *domain,
 void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
                      const fg__place_scale *scale, const fg__place_seed *seed)
 {
+  fg__place_steps steps;
+  steps.count[0] = steps.count[1] = 0;
+  fg__place_trace_on(out, domain, scale, seed, &steps);
+}
+
+void fg__place_trace_on(fg__place_line *out, const fg__place_domain *domain,
+                        const fg__place_scale *scale, const fg__place_seed *seed,
+                        fg__place_steps *steps)
+{
   side both[2];
   out->count = 0;
-  if (!trace_both(both, domain, scale, seed))
+  if (!trace_both(both, domain, scale, seed, steps))
     return;
   take_samples(out, domain, scale, &both[0], both[0].count - 1, -1, both[0].count);
   out->seed = out->count - 1;
@@ -248,7 +275,7 @@ bool fg__place_close(double *gap, double *diameter, const fg__place_domain *doma
   enum { STEPS = 400 };
   double step = radius * FG__PLACE_PI / 60.0;
   tracing with = {{domain, ROUND_ERROR * radius, step, BREAK_COSINE}, scale, 0.0};
-  tip now = {{{0}, {0}}, 0, {0}}, next;
+  tip now = {.at = {{0}, {0}}}, next;
   memcpy(now.at.position, start, sizeof now.at.position);
   if (!fg__place_direction(domain, start, now.at.direction))
     return false;

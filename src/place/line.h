@@ -3,6 +3,7 @@
 #define FG__PLACE_LINE_H
 
 #include "place/scale.h"
+#include "place/streamline.h"
 
 enum { FG__PLACE_SAMPLES = 40 };
 
@@ -24,6 +25,20 @@ typedef struct fg__place_line {
   double way[2];                        /* how far it really goes */
 } fg__place_line;
 
+/* The end of a step of a line. */
+typedef struct fg__place_step {
+  fg__place_tip at;
+  double clearance;
+  double turned[3];  /* sum of turns as vectors, radians */
+  double trial_step; /* that of the pair at first in the next step */
+} fg__place_step;
+
+/* The steps by `sampling` that lines from one place have taken, to either side of it. */
+typedef struct fg__place_steps {
+  int count[2];
+  fg__place_step step[2][FG__PLACE_SAMPLES];
+} fg__place_steps;
+
 /* Traces the line of a seed: it ends at the seed's ways; before a wall, once it comes
  * nearer than the clearance and still nears it; where it has turned by `turning`; before
  * a place where it breaks (75 degrees over 0.15 lambda) or reverses. count is 0 where the
@@ -31,6 +46,12 @@ typedef struct fg__place_line {
  * pair (1989) in arc length. */
 void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
                      const fg__place_scale *scale, const fg__place_seed *seed);
+
+/* The same, with the steps that lines of other ways from the same place have taken
+ * before; those that it goes farther are added. */
+void fg__place_trace_on(fg__place_line *out, const fg__place_domain *domain,
+                        const fg__place_scale *scale, const fg__place_seed *seed,
+                        fg__place_steps *steps);
 
 /* A line for a picture: that which a search has found, with a hundredth of the error and
  * steps of an eighth, shorter where it turns by more than two degrees in one, and of

@@ -349,6 +349,43 @@ static void a_fine_line_follows_a_rough_flow(void **state)
   clear(&s);
 }
 
+/* Lines of one place are the same, whichever of them were traced before. */
+static void lines_of_one_place_share_their_steps(void **state)
+{
+  setting s = set(*state, &PLAIN, rough, 12);
+  unsigned random = 11;
+  int lines = 0, shorter = 0;
+  for (int n = 0; n < 60; ++n) {
+    fg__place_seed seed = {{0}, {0}};
+    fg__place_steps steps = {.count = {0}};
+    for (int k = 0; k < 2; ++k)
+      seed.position[k] =
+          PLAIN.low[k] + (PLAIN.high[k] - PLAIN.low[k]) * next_random(&random);
+    for (int trial = 0; trial < 6; ++trial) {
+      fg__place_line alone, line;
+      for (int k = 0; k < 2; ++k)
+        seed.way[k] = (0.2 + 0.8 * next_random(&random)) * s.scale.lambda;
+      const int before = steps.count[1];
+      fg__place_trace(&alone, &s.domain, &s.scale, &seed);
+      fg__place_trace_on(&line, &s.domain, &s.scale, &seed, &steps);
+      assert_int_equal(line.count, alone.count);
+      if (line.count == 0)
+        continue;
+      for (int k = 0; k < 3; ++k) {
+        const size_t size = (size_t)line.count * sizeof(float);
+        assert_memory_equal(line.position[k], alone.position[k], size);
+        assert_memory_equal(line.tangent[k], alone.tangent[k], size);
+      }
+      assert_memory_equal(line.way, alone.way, sizeof line.way);
+      assert_true(steps.count[1] >= before);
+      shorter += before > 1 && steps.count[1] == before;
+      ++lines;
+    }
+  }
+  assert_true(lines > 100 && shorter > 50);
+  clear(&s);
+}
+
 /* Traces through a seed a lambda to the right of the eye; *points is allocated. */
 static int trace_beside_eye(double (**points)[3], double *radius, const setting *s,
                             fg_context *context)
@@ -436,6 +473,7 @@ int main(void)
       CASE(too_short_a_line_is_none),
       CASE(a_fine_line_is_the_coarse_one),
       CASE(a_fine_line_follows_a_rough_flow),
+      CASE(lines_of_one_place_share_their_steps),
       CASE(a_fine_line_has_the_points_that_its_shape_needs),
       CASE(a_ring_closes_and_a_spiral_does_not),
       CASE(turns_add_up_as_vectors),

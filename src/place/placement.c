@@ -33,14 +33,16 @@ enum { ALWAYS = 200 };
 /* Sweeps after the first scale is complete. */
 enum { SETTLING = 3 };
 
-/* The descent ends in a local minimum that depends on where it starts. So other
- * placements are made, and the best is kept. */
 typedef struct descent {
   double ratio; /* of the numbers of icons in a chain of scales */
-  double start; /* of a first scale: icons at even points where the chain begins, as a
-                   multiple of those wanted */
+  double start; /* of a first scale: icons where the chain begins, as a multiple of those
+                   wanted */
 } descent;
 
+static const descent FIRST = {0.8, 1.25};
+
+/* The descent ends in a local minimum that depends on where it starts. So other
+ * placements are made, of a first scale from even points, and the best is kept. */
 static const descent OTHERS[] = {{0.65, 1.5}, {0.5, 2.0}};
 
 /* Other placements start from a finer scale that has at least so many times as many
@@ -319,7 +321,7 @@ static fg_status go_down(fg_placement *placement, int count, double ratio)
 {
   fg__place_search *search = &placement->search;
   fg_status status = FG_STATUS_OK;
-  for (int now = search->count; now > count && status == FG_STATUS_OK;) {
+  for (int now = search->count; search->scale.count > count && status == FG_STATUS_OK;) {
     int next = (int)(ratio * now);
     now = next > count ? next : count;
     status = thin_to(search, now);
@@ -336,10 +338,16 @@ static fg_status check_count(const fg_placement *placement, int count)
                   placement->search.count);
 }
 
-static fg_status place_first(fg_placement *placement, int count, const fg_icons *clusters)
+/* Places a first scale: first more icons, as far as the field may have room for them,
+ * of which those stay that tell most. */
+static fg_status place_first(fg_placement *placement, int count, const fg_icons *clusters,
+                             const descent *by)
 {
-  fg_status status = start(placement, count, clusters);
-  return status == FG_STATUS_OK ? relax_to_count(&placement->search) : status;
+  const int more = (int)fmin(by->start * count, count_most(placement));
+  fg_status status = start(placement, more > count ? more : count, clusters);
+  if (status == FG_STATUS_OK)
+    status = relax_to_count(&placement->search);
+  return status == FG_STATUS_OK ? go_down(placement, count, by->ratio) : status;
 }
 
 static bool are_placed(const fg_icons *icons)
@@ -367,7 +375,7 @@ static fg_status place_near(fg_placement *placement, int count, const fg_icons *
 
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
-  fg_status status = place_first(placement, count, NULL);
+  fg_status status = place_first(placement, count, NULL, &FIRST);
   return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
@@ -382,11 +390,11 @@ static fg_status place_otherwise(fg_placement *placement, int count,
     status = fg__place_search_rescale(search, from->count);
     if (status == FG_STATUS_OK)
       status = fg__place_restore(search, from);
+    if (status == FG_STATUS_OK)
+      status = go_down(placement, count, by->ratio);
   } else {
-    status = place_first(placement, (int)(by->start * count), NULL);
+    status = place_first(placement, count, NULL, by);
   }
-  if (status == FG_STATUS_OK)
-    status = go_down(placement, count, by->ratio);
   return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
@@ -455,7 +463,7 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   if (is_near) {
     status = place_near(placement, count, clusters);
   } else if (is_first) {
-    status = place_first(placement, count, clusters);
+    status = place_first(placement, count, clusters, &FIRST);
   } else {
     if (others > 0)
       status = fg__place_remember(&finer, search);

@@ -1,6 +1,8 @@
 /* The energy of a placement (docs/method/placement.md). */
 #include "place/search/search.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,38 +15,43 @@ static const double LEAST_ERROR = 5.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
-/* Whether an icon other than `except` contributes to a box. */
-static bool reaches(const fg__place_search *search, int index, const fg__place_box *box,
-                    int except)
+/* Lists the icons other than `except` that contribute to a box. */
+static fg_status list_near(fg__place_search *search, const fg__place_box *box, int except)
 {
-  return index != except && fg__place_boxes_meet(box, &search->box[index]);
+  search->near_count = 0;
+  if (!fg__grow((void **)&search->near, &search->near_capacity, (size_t)search->count,
+                sizeof *search->near))
+    return fg__fail_memory(search->context, "a list of icons",
+                           (size_t)search->count * sizeof *search->near);
+  for (int n = 0; n < search->count; ++n)
+    if (n != except && fg__place_boxes_meet(box, &search->box[n]))
+      search->near[search->near_count++] = n;
+  return FG_STATUS_OK;
 }
 
-/* Samples of the icons but one that contribute to a box. */
-static fg_status gather_points(fg__place_search *search, const fg__place_box *box,
-                               int except)
+/* Gathers the samples of the icons in that list. */
+static fg_status gather_points(fg__place_search *search)
 {
   int most = 0;
-  for (int n = 0; n < search->count; ++n)
-    if (reaches(search, n, box, except))
-      most += search->icon[n]->line.count;
+  for (int n = 0; n < search->near_count; ++n)
+    most += search->icon[search->near[n]]->line.count;
   fg_status status = fg__place_points_start(&search->beside, search->context,
                                             search->scale.dimension, most);
-  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (reaches(search, n, box, except))
-      fg__place_points_add(&search->beside, &search->icon[n]->line);
+  for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
+    fg__place_points_add(&search->beside, &search->icon[search->near[n]]->line);
   return status;
 }
 
 fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
                            const fg__place_box *box, int except)
 {
-  fg_status status = fg__place_contribution_start(
-      out, search->context, search->scale.dimension, box, (float)fg__place_reach(search));
-  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-    if (reaches(search, n, box, except))
-      fg__place_contribution_add(out, &search->icon[n]->contribution);
-  return status == FG_STATUS_OK ? gather_points(search, box, except) : status;
+  fg_status status = list_near(search, box, except);
+  if (status == FG_STATUS_OK)
+    status = fg__place_contribution_start(out, search->context, search->scale.dimension,
+                                          box, (float)fg__place_reach(search));
+  for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
+    fg__place_contribution_add(out, &search->icon[search->near[n]]->contribution);
+  return status == FG_STATUS_OK ? gather_points(search) : status;
 }
 
 fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
@@ -143,7 +150,9 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
                   fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
-    status = gather_points(search, &icon->contribution.box, n);
+    status = list_near(search, &icon->contribution.box, n);
+    if (status == FG_STATUS_OK)
+      status = gather_points(search);
     if (status == FG_STATUS_OK) /* both of a pair pay */
       *energy += fg__place_line_penalty(search, &icon->line);
   }

@@ -147,7 +147,8 @@ static bool is_same_length(const fg__place_line *a, const fg__place_line *b,
 /* Shortens the ways of a seed in a free placement to those that its line reaches. A way
  * stays where the line would then be another: where it breaks or ends in a hook it is
  * shortened once more. So a seed always gives its icon's line. */
-static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
+static void clip_ways(fg__place_icon *icon, const fg__place_search *search,
+                      fg__place_steps *steps)
 {
   const fg__place_scale *scale = &search->scale;
   for (int k = 0; k < 2 && scale->free; ++k) {
@@ -156,7 +157,7 @@ static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
     clipped.way[k] = icon->line.way[k];
     if (!(clipped.way[k] < icon->seed.way[k]))
       continue;
-    fg__place_trace(&line, search->domain, scale, &clipped);
+    fg__place_trace_on(&line, search->domain, scale, &clipped, steps);
     if (is_same_length(&line, &icon->line, SAME_WAY * scale->lambda))
       icon->seed = clipped;
   }
@@ -197,15 +198,17 @@ static fg__place_box room_of(const fg__place_search *search, const fg__place_ico
   return box;
 }
 
-/* Tries a seed. *rise is what it adds to the energy; it is accepted when that falls. */
+/* Tries a seed; `steps` are of its place. *rise is what it adds to the energy; it is
+ * accepted when that falls. */
 static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
-                         const fg__place_seed *seed, fg__place_box *region, double *now)
+                         const fg__place_seed *seed, fg__place_steps *steps,
+                         fg__place_box *region, double *now)
 {
   fg__place_icon *icon = search->icon[index];
   fg__place_line line;
   *taken = false;
   *rise = HUGE_VAL;
-  fg__place_trace(&line, search->domain, &search->scale, seed);
+  fg__place_trace_on(&line, search->domain, &search->scale, seed, steps);
   if (line.count == 0)
     return FG_STATUS_OK;
   fg_status status = fg__place_contribution_compute(
@@ -228,7 +231,7 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
     icon->line = line;
     swap_contributions(&icon->contribution, &search->trial);
     search->box[index] = icon->contribution.box;
-    clip_ways(icon, search);
+    clip_ways(icon, search, steps);
     *taken = true;
   }
   return FG_STATUS_OK;
@@ -262,13 +265,16 @@ static fg_status visit(fg__place_search *search, int index)
   for (int axis = 0; axis < AXES; ++axis)
     rise[axis][0] = rise[axis][1] = HUGE_VAL;
   bool taken = false;
+  fg__place_steps here, there; /* from the icon's place, and from a trial's */
+  here.count[0] = here.count[1] = 0;
   fg__place_box region = room_of(search, icon);
   fg_status status = extend_region(search, &region, &icon->contribution.box, index, &now);
   for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
     int n = (k + icon->move) % count;
     const trial *next = &trials[n];
+    there.count[0] = there.count[1] = 0;
     status = attempt(&rise[next->axis][next->sign], &taken, search, index, &next->seed,
-                     &region, &now);
+                     next->axis < WAYS ? &there : &here, &region, &now);
     if (taken) {
       icon->move = n;
       icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
@@ -278,8 +284,9 @@ static fg_status visit(fg__place_search *search, int index)
   double step[AXES], unused;
   if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_PROMISE * fabs(now)) {
     fg__place_seed seed = moved(search, icon, step);
+    there.count[0] = there.count[1] = 0;
     if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
-      status = attempt(&unused, &taken, search, index, &seed, &region, &now);
+      status = attempt(&unused, &taken, search, index, &seed, &there, &region, &now);
   }
   icon->step *= SHRINKAGE;
   return status;

@@ -61,6 +61,7 @@ void fg__place_search_clear(fg__place_search *search)
     free_icon(search->icon[n]);
   free(search->icon);
   free(search->box);
+  free(search->near);
   clear_scale(search);
   fg__place_contribution_clear(&search->others);
   fg__place_contribution_clear(&search->trial);

@@ -32,7 +32,10 @@ typedef struct fg__place_search {
   /* Working memory: */
   fg__place_contribution others, trial, whole;
   fg__place_points beside; /* samples of the icons that were gathered last */
-  float *map, *smooth;     /* a value a raster cell */
+  int *near;               /* [near_count] icons that contribute to a box */
+  int near_count;
+  size_t near_capacity;
+  float *map, *smooth; /* a value a raster cell */
 } fg__place_search;
 
 /* Starts a search for `count` icons, with none yet. MEMORY. */
