@@ -49,8 +49,9 @@ static const char *const COMPONENT_WORDS[][2] = {
 /* Longer words also count inside a name ("windEastward"; "vozocrtx" and "vomecrty" of
  * NEMO). */
 static const char *const COMPONENT_PARTS[][2] = {
-    {"eastward", "northward"}, {"zonal", "meridional"}, {"vozo", "vome"},
-    {"sozo", "some"},          {"east", "north"},
+    {"eastward", "northward"}, {"zonal", "meridional"},
+    {"vozo", "vome"},          {"sozo", "some"},
+    {"east", "north"},         {"ustr", "vstr"}, /* "sustr" and "svstr" of ROMS */
 };
 
 static int split_tokens(const char *name, token out[MOST_TOKENS])
@@ -214,7 +215,7 @@ static bool add_part_patterns(pattern_list *list, size_t variable, const char *n
         /* NEMO: "crtx" and "crty" also differ at the end */
         const size_t end = strlen(name) - 1;
         const token parts[] = {{i, length}, {end, 1}};
-        const bool nemo = part[0] == 'v' || part[0] == 's';
+        const bool nemo = (part[0] == 'v' || part[0] == 's') && part[1] == 'o';
         return add_replaced(list, variable, 'p', k, name, parts,
                             nemo && end >= i + length ? 2 : 1);
       }

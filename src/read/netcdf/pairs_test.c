@@ -89,6 +89,8 @@ static void usual_names_are_paired(void **state)
       {"u100", "v100"},
       {"Uwind", "Vwind"},
       {"vsdx", "vsdy"},
+      {"sustr", "svstr"},
+      {"bustr_day", "bvstr_day"},
   };
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
     for (int turned = 0; turned < 2; ++turned) {
