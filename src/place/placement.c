@@ -17,9 +17,9 @@ typedef struct effort {
   int others;            /* and of one that is reached from a finer one */
 } effort;
 
-static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1, 2},
+static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1, 4},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 2, 2}};
+                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 3, 4}};
 
 /* From so many icons on the number of exchanges falls: each takes time in proportion to
  * the number of icons and changes a smaller share of the picture. */
@@ -43,7 +43,7 @@ static const descent FIRST = {0.8, 1.25};
 
 /* The descent ends in a local minimum that depends on where it starts. So other
  * placements are made, of a first scale from even points, and the best is kept. */
-static const descent OTHERS[] = {{0.65, 1.5}, {0.5, 2.0}};
+static const descent OTHERS[] = {{0.65, 1.5}, {0.72, 1.75}, {0.58, 1.75}, {0.5, 2.0}};
 
 /* Other placements start from a finer scale that has at least so many times as many
  * icons.
