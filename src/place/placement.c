@@ -45,6 +45,10 @@ static const descent FIRST = {0.8, 1.25};
  * placements are made, of a first scale from even points, and the best is kept. */
 static const descent OTHERS[] = {{0.65, 1.5}, {0.72, 1.75}, {0.58, 1.75}, {0.5, 2.0}};
 
+/* Where a hundredth of the lines touches others, an error counts as so many hundredths
+ * more. */
+static const double TOUCHING_COUNTS = 4.0;
+
 /* Other placements start from a finer scale that has at least so many times as many
  * icons.
  */
@@ -398,6 +402,17 @@ static fg_status place_otherwise(fg_placement *placement, int count,
   return status == FG_STATUS_OK ? refine(placement) : status;
 }
 
+/* How bad a placement is: the readers' error, and more where lines touch. */
+static fg_status judge(fg__place_search *search, double *badness)
+{
+  double touching = 0.0;
+  fg_status status = fg__place_error(search, badness);
+  if (status == FG_STATUS_OK)
+    status = fg__place_touching(search, &touching);
+  *badness *= 1.0 + TOUCHING_COUNTS * touching;
+  return status;
+}
+
 /* Tries another placement, and restores the present one where that is no better. */
 static fg_status improve(fg_placement *placement, int count,
                          const fg__place_snapshot *from, const descent *by)
@@ -406,7 +421,7 @@ static fg_status improve(fg_placement *placement, int count,
   fg__place_snapshot best = {0};
   double before, after = HUGE_VAL;
   int next_identity = search->next_identity;
-  fg_status status = fg__place_error(search, &before);
+  fg_status status = judge(search, &before);
   if (status == FG_STATUS_OK)
     status = fg__place_remember(&best, search);
   if (status == FG_STATUS_OK)
@@ -414,7 +429,7 @@ static fg_status improve(fg_placement *placement, int count,
   if (search->next_identity < next_identity) /* it began anew */
     search->next_identity = next_identity;
   if (status == FG_STATUS_OK)
-    status = fg__place_error(search, &after);
+    status = judge(search, &after);
   if (status == FG_STATUS_OK && (search->count < best.count || !(after < before))) {
     status = fg__place_search_rescale(search, best.count);
     if (status == FG_STATUS_OK)

@@ -15,6 +15,11 @@ static const double LEAST_ERROR = 5.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
+/* Lines nearer than this many lambda touch: 0.1, and something for their samples'
+ * distance.
+ */
+static const float TOUCHING = 0.11F;
+
 /* Lists the icons other than `except` that contribute to a box. */
 static fg_status list_near(fg__place_search *search, const fg__place_box *box, int except)
 {
@@ -123,6 +128,29 @@ fg_status fg__place_error(fg__place_search *search, double *error)
   sum += search->scale.diffusion * fg__place_diffusion_sum(&search->diffusion);
   *error = sum / search->scale.count / (2.0 + search->scale.diffusion);
   return FG_STATUS_OK;
+}
+
+fg_status fg__place_touching(fg__place_search *search, double *share)
+{
+  fg_status status = FG_STATUS_OK;
+  double touching = 0.0, all = 0.0;
+  for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
+    const fg__place_icon *icon = search->icon[n];
+    const fg__place_line *line = &icon->line;
+    float square[FG__PLACE_SAMPLES];
+    status = list_near(search, &icon->contribution.box, n);
+    if (status == FG_STATUS_OK)
+      status = gather_points(search);
+    if (status != FG_STATUS_OK)
+      break;
+    fg__place_points_nearest(square, &search->beside, line);
+    for (int i = 0; i < line->count; ++i) {
+      all += (double)line->share[i];
+      touching += square[i] < TOUCHING * TOUCHING ? (double)line->share[i] : 0.0;
+    }
+  }
+  *share = all > 0.0 ? touching / all : 0.0;
+  return status;
 }
 
 fg_status fg__place_set_reference_error(fg__place_search *search)

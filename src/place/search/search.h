@@ -99,6 +99,9 @@ void fg__place_snapshot_clear(fg__place_snapshot *snapshot);
 /* The readers' mean error now, degrees. MEMORY. */
 fg_status fg__place_error(fg__place_search *search, double *error);
 
+/* The share of the lines that touches another one. MEMORY. */
+fg_status fg__place_touching(fg__place_search *search, double *share);
+
 /* Sets E0 to that error. MEMORY. */
 fg_status fg__place_set_reference_error(fg__place_search *search);
 
