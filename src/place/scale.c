@@ -27,7 +27,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .crowd_range = 0.3 * lambda,
       .ends = 0.7,
       .end_gap = 0.2 * lambda,
-      .touch = flat && !free ? 7.0 : 6.0,
+      .touch = flat ? 7.0 : 6.0,
       .touch_gap = 0.15 * lambda,
       .diffusion = 2.0,
       .far = 3.0,
