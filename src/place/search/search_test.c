@@ -249,8 +249,15 @@ static void lines_do_not_touch(void **state)
   s.search.scale.crowding = s.search.scale.ends = 0.0;
   const fg__place_line *line = &s.search.icon[1]->line;
   const double length = line->length / s.search.scale.lambda;
-  const double penalty = 6 * length * pow(1 - 0.06 / 0.15, 2);
+  const double penalty = 7 * length * pow(1 - 0.06 / 0.15, 2);
+  double share;
   assert_close(penalty_beside(&s, line, 1), penalty, 0.1 * penalty);
+  assert_int_equal(fg__place_touching(&s.search, &share), FG_STATUS_OK);
+  assert_close(share, 1, 0.05);
+  clear(&s);
+  set_two(&s, *state, 0.0, 0.13);
+  assert_int_equal(fg__place_touching(&s.search, &share), FG_STATUS_OK);
+  assert_true(share == 0.0);
   clear(&s);
 }
 
