@@ -19,7 +19,7 @@ typedef enum fg_lengths {
 typedef enum fg_effort {
   FG_EFFORT_NORMAL = 0,
   FG_EFFORT_QUICK,   /* descent alone: some per cent more error, half the time */
-  FG_EFFORT_THOROUGH /* the best of three placements: twice the time, 1 % less error */
+  FG_EFFORT_THOROUGH /* the best of five placements: up to five times the time */
 } fg_effort;
 
 /* A zero field means its default, in brackets. */

@@ -247,7 +247,7 @@ void fg__place_trace(fg__place_line *out, const fg__place_domain *domain,
                      const fg__place_scale *scale, const fg__place_seed *seed)
 {
   fg__place_steps steps;
-  steps.count[0] = steps.count[1] = 0;
+  fg__place_no_steps(&steps);
   fg__place_trace_on(out, domain, scale, seed, &steps);
 }
 

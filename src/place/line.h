@@ -39,6 +39,11 @@ typedef struct fg__place_steps {
   fg__place_step step[2][FG__PLACE_SAMPLES];
 } fg__place_steps;
 
+static inline void fg__place_no_steps(fg__place_steps *steps)
+{
+  steps->count[0] = steps->count[1] = 0;
+}
+
 /* Traces the line of a seed: it ends at the seed's ways; before a wall, once it comes
  * nearer than the clearance and still nears it; where it has turned by `turning`; before
  * a place where it breaks (75 degrees over 0.15 lambda) or reverses. count is 0 where the

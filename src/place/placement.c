@@ -19,7 +19,7 @@ typedef struct effort {
 
 static const effort EFFORTS[] = {[FG_EFFORT_NORMAL] = {14, 13, 30, 5, 1, 4},
                                  [FG_EFFORT_QUICK] = {8, 0, 0, 0, 0, 0},
-                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 3, 4}};
+                                 [FG_EFFORT_THOROUGH] = {14, 13, 30, 5, 4, 4}};
 
 /* From so many icons on the number of exchanges falls: each takes time in proportion to
  * the number of icons and changes a smaller share of the picture. */

@@ -11,7 +11,6 @@ enum { WIDTH = 150, HEIGHT = 120 };
 
 static uint32_t image[HEIGHT][WIDTH], other[HEIGHT][WIDTH];
 
-/* A box of 4 x 4 x 2 with an arrow that stands in it, off the middle, leaning. */
 static fg_icons *list_of(const fg_icon *icon)
 {
   fg_icons *icons = NULL;
@@ -27,6 +26,7 @@ static fg__palette red_palette(void)
   return red;
 }
 
+/* A box of 4 x 4 x 2 with an arrow that stands in it, off the middle, leaning. */
 static fg_icons *make_icons(double turned, bool beyond)
 {
   double points[9][3];

@@ -15,31 +15,26 @@ static const double LEAST_ERROR = 5.0;
 /* Shorter than this many lambda costs nu times the square of what is missing. */
 static const double BRIEF = 0.8;
 
-/* Lines nearer than this many lambda touch: 0.1, and something for their samples'
- * distance.
- */
+/* Lines nearer than this many lambda touch: 0.1 and a little, for between its samples a
+ * line may be nearer. */
 static const float TOUCHING = 0.11F;
 
-/* Lists the icons other than `except` that contribute to a box. */
-static fg_status list_near(fg__place_search *search, const fg__place_box *box, int except)
+/* Lists the icons other than `except` that contribute to a box, and gathers their
+ * samples. */
+static fg_status gather_near(fg__place_search *search, const fg__place_box *box,
+                             int except)
 {
+  int most = 0;
   search->near_count = 0;
   if (!fg__grow((void **)&search->near, &search->near_capacity, (size_t)search->count,
                 sizeof *search->near))
     return fg__fail_memory(search->context, "a list of icons",
                            (size_t)search->count * sizeof *search->near);
   for (int n = 0; n < search->count; ++n)
-    if (n != except && fg__place_boxes_meet(box, &search->box[n]))
+    if (n != except && fg__place_boxes_meet(box, &search->box[n])) {
       search->near[search->near_count++] = n;
-  return FG_STATUS_OK;
-}
-
-/* Gathers the samples of the icons in that list. */
-static fg_status gather_points(fg__place_search *search)
-{
-  int most = 0;
-  for (int n = 0; n < search->near_count; ++n)
-    most += search->icon[search->near[n]]->line.count;
+      most += search->icon[n]->line.count;
+    }
   fg_status status = fg__place_points_start(&search->beside, search->context,
                                             search->scale.dimension, most);
   for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
@@ -50,13 +45,13 @@ static fg_status gather_points(fg__place_search *search)
 fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
                            const fg__place_box *box, int except)
 {
-  fg_status status = list_near(search, box, except);
+  fg_status status = gather_near(search, box, except);
   if (status == FG_STATUS_OK)
     status = fg__place_contribution_start(out, search->context, search->scale.dimension,
                                           box, (float)fg__place_reach(search));
   for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
     fg__place_contribution_add(out, &search->icon[search->near[n]]->contribution);
-  return status == FG_STATUS_OK ? gather_points(search) : status;
+  return status;
 }
 
 fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
@@ -138,9 +133,7 @@ fg_status fg__place_touching(fg__place_search *search, double *share)
     const fg__place_icon *icon = search->icon[n];
     const fg__place_line *line = &icon->line;
     float square[FG__PLACE_SAMPLES];
-    status = list_near(search, &icon->contribution.box, n);
-    if (status == FG_STATUS_OK)
-      status = gather_points(search);
+    status = gather_near(search, &icon->contribution.box, n);
     if (status != FG_STATUS_OK)
       break;
     fg__place_points_nearest(square, &search->beside, line);
@@ -178,9 +171,7 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
                   fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
-    status = list_near(search, &icon->contribution.box, n);
-    if (status == FG_STATUS_OK)
-      status = gather_points(search);
+    status = gather_near(search, &icon->contribution.box, n);
     if (status == FG_STATUS_OK) /* both of a pair pay */
       *energy += fg__place_line_penalty(search, &icon->line);
   }

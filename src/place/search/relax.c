@@ -266,13 +266,13 @@ static fg_status visit(fg__place_search *search, int index)
     rise[axis][0] = rise[axis][1] = HUGE_VAL;
   bool taken = false;
   fg__place_steps here, there; /* from the icon's place, and from a trial's */
-  here.count[0] = here.count[1] = 0;
+  fg__place_no_steps(&here);
   fg__place_box region = room_of(search, icon);
   fg_status status = extend_region(search, &region, &icon->contribution.box, index, &now);
   for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
     int n = (k + icon->move) % count;
     const trial *next = &trials[n];
-    there.count[0] = there.count[1] = 0;
+    fg__place_no_steps(&there);
     status = attempt(&rise[next->axis][next->sign], &taken, search, index, &next->seed,
                      next->axis < WAYS ? &there : &here, &region, &now);
     if (taken) {
@@ -284,7 +284,7 @@ static fg_status visit(fg__place_search *search, int index)
   double step[AXES], unused;
   if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_PROMISE * fabs(now)) {
     fg__place_seed seed = moved(search, icon, step);
-    there.count[0] = there.count[1] = 0;
+    fg__place_no_steps(&there);
     if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
       status = attempt(&unused, &taken, search, index, &seed, &there, &region, &now);
   }
