@@ -313,6 +313,7 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
   size_t size = 0;
   add_file(&library, &size, input);
   add_file(&library, &size, options ? options->vars_from : NULL);
+  add_file(&library, &size, options ? options->mesh_from : NULL);
   if (!library)
     return EXIT_DONE;
   reading r = {input, options, slab, slabs};

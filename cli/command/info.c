@@ -214,8 +214,8 @@ static void take_grid(fg_inventory_vector *vector, const fg_field *field)
 
 static bool chooses(const reading_settings *reading)
 {
-  return reading->vars || reading->vars_from || reading->block || reading->slice ||
-         reading->frame || reading->scale;
+  return reading->vars || reading->vars_from || reading->mesh_from || reading->at ||
+         reading->block || reading->slice || reading->frame || reading->scale;
 }
 
 /* Lists the vector that the options choose with its grid as read at the first time, or at

@@ -43,8 +43,9 @@ static int check_name(const char *path)
 
 static int is_input(const rival_settings *settings, const char *path)
 {
-  const char *const inputs[] = {settings->reading.input, settings->reading.vars_from};
-  return check_is_no_input(path, inputs, 2);
+  const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
+                                settings->reading.mesh_from};
+  return check_is_no_input(path, inputs, 3);
 }
 
 /* The picture's path for one count: FILE, or FILE-COUNT with several. */

@@ -80,7 +80,7 @@ static int check_options(const texture_settings *settings)
       {"noise", settings->evolution.noise > 0.0},
   };
   const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
-                                settings->evolution.energy};
+                                settings->reading.mesh_from, settings->evolution.energy};
   const given_option length = {"length", settings->length > 0.0};
   int code = EXIT_DONE;
   if (settings->kind == FG_TEXTURE_CLUSTERS)

@@ -22,6 +22,9 @@ static const option_entry input_entries[] = {
          "usual names; an ambiguous choice is an error that lists the choices]"},
     {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
      .help = "second file, which holds the other component, the positions, or the mesh"},
+    {"mesh-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(mesh_from),
+     .help = "file with the positions or the mesh, where both components have a file of "
+             "their own (NetCDF)"},
     {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_text),
      .help = "which time: a whole number is an index, from 0; a number with a unit or a "
              "point is a value, 3.5h; a date is the first time within it, 1982-07, "
@@ -33,6 +36,10 @@ static const option_entry input_entries[] = {
      .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
              "too, where there are fewer levels; its words, too: surface [that at the "
              "surface of an ocean, else 0]"},
+    {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at),
+     .help = "of a dimension that is neither time nor level, as the members of an "
+             "ensemble, the one to read, likewise: number=2; of several, with commas "
+             "between (NetCDF)"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
      .help = "variable that is zero (or negative, or missing) outside the domain"},
     {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format),

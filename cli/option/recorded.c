@@ -11,8 +11,9 @@
 /* Options without influence on results: place of output, speed, duration; and files, as
  * paths depend on the working directory (their contents are compared). */
 static const char *const no_part[] = {
-    "output", "vars-from", "max-memory", "max-time", "max-steps", "threads", "checkpoint",
-    "resume", "force",     "quiet",      "verbose",  "help",      "version",
+    "output",    "vars-from", "mesh-from",  "max-memory", "max-time",
+    "max-steps", "threads",   "checkpoint", "resume",     "force",
+    "quiet",     "verbose",   "help",       "version",
 };
 
 enum { VALUE_BYTES = 1024 };

@@ -13,6 +13,8 @@ fg_read_options settings_reading(const reading_settings *settings)
   return (fg_read_options){
       .vars = settings->vars,
       .vars_from = settings->vars_from,
+      .mesh_from = settings->mesh_from,
+      .at = settings->at,
       .time = settings->time,
       .level = settings->level,
       .mask = settings->mask,

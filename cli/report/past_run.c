@@ -197,6 +197,8 @@ static void fill_reading(cli_report *out, const cJSON *input)
 {
   out->reading.vars = text_of(input, "vars");
   out->reading.vars_from = text_of(input, "vars_from");
+  out->reading.mesh_from = text_of(input, "mesh_from");
+  out->reading.at = text_of(input, "at");
   out->reading.mask = text_of(input, "mask");
   out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");

@@ -48,6 +48,14 @@ static void add_map(cJSON *input, const fg_map_options *map)
     cJSON_AddNumberToObject(object, "samples", map->samples);
 }
 
+/* Adds where a further file is, absolute if it can be. */
+static void add_path(cJSON *input, const char *name, const char *path)
+{
+  char *absolute = path ? realpath(path, NULL) : NULL;
+  add_text(input, name, absolute ? absolute : path);
+  free(absolute);
+}
+
 static void add_input(cJSON *root, const run_facts *facts)
 {
   const run_settings *settings = facts->settings;
@@ -59,10 +67,9 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(input, "absolute", absolute);
   free(absolute);
   add_text(input, "vars", settings->reading.vars);
-  absolute =
-      settings->reading.vars_from ? realpath(settings->reading.vars_from, NULL) : NULL;
-  add_text(input, "vars_from", absolute ? absolute : settings->reading.vars_from);
-  free(absolute);
+  add_path(input, "vars_from", settings->reading.vars_from);
+  add_path(input, "mesh_from", settings->reading.mesh_from);
+  add_text(input, "at", settings->reading.at);
   add_text(input, "mask", settings->reading.mask);
   add_text(input, "block", settings->reading.block);
   add_text(input, "slice", settings->reading.slice);

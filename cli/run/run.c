@@ -51,8 +51,8 @@ static int decide(const cli_run *run, const output_contents *there, bool *done)
 static int check_inputs(const run_settings *settings)
 {
   const char *const inputs[] = {settings->reading.input, settings->reading.vars_from,
-                                settings->evolution.energy};
-  return made_check_inputs(settings->output, inputs, 3);
+                                settings->reading.mesh_from, settings->evolution.energy};
+  return made_check_inputs(settings->output, inputs, 4);
 }
 
 static int inspect_folder(const cli_run *run, output_contents *there, bool *done)

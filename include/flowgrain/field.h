@@ -32,6 +32,11 @@ typedef struct fg_read_options {
   const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
   const char *vars_from; /* second file, with the other component(s), the positions or
                             the mesh; NULL: none */
+  const char *mesh_from; /* file with the positions or the mesh, beside vars_from; NULL:
+                            none */
+  const char *at;        /* "number=2,expver=0": of dimensions that are neither time nor
+                            level, the one sample of each to read, by index, value or
+                            words as fg_selection_find has them; NULL: none */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
   const char *mask;      /* variable that is zero, negative or missing outside the domain;

@@ -52,7 +52,8 @@ typedef struct fg__format {
   const char *name; /* as `flowgrain info` shows it */
   bool is_absent;   /* this build cannot read it: it lacks `feature` */
   fg_feature feature;
-  const char *files; /* which ones it reads; NULL: another says it, or none are read */
+  bool has_dimensions; /* knows the options mesh_from and at */
+  const char *files;   /* which ones it reads; NULL: another says it, or none are read */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
                          const fg__source *source);

@@ -111,6 +111,18 @@ fg_status fg__source_open_known(fg__source *out, const fg__format **format,
   return status;
 }
 
+/* Only some formats have a mesh in a file of its own, and dimensions of names. */
+static fg_status check_choice(fg_context *context, const fg__format *format,
+                              const fg__source *source, const fg_read_options *options)
+{
+  if (!options || format->has_dimensions || (!options->mesh_from && !options->at))
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: %s cannot be used with %s",
+                  source->path,
+                  options->at ? "a sample of a named dimension" : "a file with the mesh",
+                  format->name);
+}
+
 static bool is_synthetic(const char *input)
 {
   return strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0;
@@ -141,8 +153,8 @@ static fg_status name_the_file(fg_context *context, fg_status status, const char
 static fg_status read_analytic(fg_field **out, fg_context *context, const char *input,
                                const fg_read_options *options)
 {
-  if (options && (options->vars || options->vars_from || options->mask || options->time ||
-                  options->level))
+  if (options && (options->vars || options->vars_from || options->mesh_from ||
+                  options->at || options->mask || options->time || options->level))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: an analytic field has no variables, masks, times or levels to "
                     "choose from",
@@ -170,6 +182,8 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   fg_status status = fg__source_open_known(&source, &format, context, input);
   if (!options)
     options = &defaults;
+  if (status == FG_STATUS_OK)
+    status = check_choice(context, format, &source, options);
   if (status == FG_STATUS_OK)
     status = name_the_file(
         context, fg__field_read_known(out, context, format, &source, options, slab),
@@ -228,7 +242,8 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
     return key;
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
-  key = mix_text(key, options->slice);
+  key =
+      mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
   key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
@@ -289,6 +304,8 @@ static fg_status describe_file(fg_inventory **out, fg_context *context, const ch
   const fg__format *format;
   fg_status status = fg__source_open_known(&source, &format, context, path);
   if (status == FG_STATUS_OK)
+    status = check_choice(context, format, &source, options);
+  if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
   if (status == FG_STATUS_OK && options && format->inventory_chosen)
     status = format->inventory_chosen(*out, context, &source, options);
@@ -346,6 +363,8 @@ fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
   fg__source source;
   const fg__format *format;
   fg_status status = fg__source_open_known(&source, &format, context, input);
+  if (status == FG_STATUS_OK)
+    status = check_choice(context, format, &source, options);
   if (status == FG_STATUS_OK && format->defaults)
     status = format->defaults(out, context, &source, options ? options : &defaults);
   fg__source_close(&source);

@@ -83,6 +83,20 @@ expect_code 0
 expect_error 'one: the run is finished'
 done_with "a time and a level by index, value and date"
 
+try run wind.nc -o by-name "${small[@]}" --time 1 --at lev=300hPa --quiet
+expect_code 0
+expect_json by-name/run.json '.input.at == "lev=300hPa" and .input.level == 0 and .field.level == "300 hPa"'
+try run wind.nc -o by-level "${small[@]}" --time 1 --level 300hPa --quiet
+cmp -s by-name/scale-00.geojson by-level/scale-00.geojson || fault "--at lev is another level than --level"
+cmp -s by-name/scale-00.svg by-level/scale-00.svg || fault "another picture"
+try draw by-name -o drawn.svg
+expect_code 0
+cmp -s by-name/scale-00.svg drawn.svg || fault "draw reads another level"
+try run wind.nc -o by-name --resume "${small[@]}" --time 1 --at lev=850hPa
+expect_code 1
+expect_error 'its run was begun with --at lev=300hPa'
+done_with "a sample of a dimension by its name"
+
 refuse() { # CODE PATTERN ARGUMENTS...
   local wanted=$1 pattern=$2
   shift 2

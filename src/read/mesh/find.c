@@ -59,16 +59,17 @@ static void find_positions(fg__nc_part *part, const fg__nc_file *file)
 }
 
 /* Whether a part has the dimensions; those of another file may have their names. Not so
- * where components are of two files: there each has the positions of its own faces
- * (NEMO). */
+ * in the files of components where these are two: there each has the positions of its own
+ * faces (NEMO). */
 static bool has_dimensions(const fg__nc_mesh *mesh, const fg__nc_file *file,
                            const fg__nc_part *part, const int dimension[2])
 {
-  const bool one_file = mesh->part[0].variable->file == mesh->part[1].variable->file;
+  const bool by_name = mesh->part[0].variable->file == mesh->part[1].variable->file ||
+                       part->variable->file >= file->component_files;
   for (int k = 0; k < 2; ++k) {
     const int own = part->grid.axis[k].dimension;
     if (own != dimension[k] &&
-        !(one_file && fg__nc_alike_dimension(file, own, dimension[k])))
+        !(by_name && fg__nc_alike_dimension(file, own, dimension[k])))
       return false;
   }
   return true;

@@ -294,6 +294,29 @@ static void positions_in_a_second_file(void **state)
   unlink(second);
 }
 
+/* The same where each component has a file of its own, too. */
+static void positions_in_a_third_file(void **state)
+{
+  const model_variable u[] = {MOM6[4], {0}}, v[] = {MOM6[5], {0}};
+  const model_variable positions[] = {MOM6[0], MOM6[1], MOM6[2], MOM6[3],
+                                      MOM6[6], MOM6[7], {0}};
+  sample_file *f = *state;
+  char second[128], third[128];
+  snprintf(second, sizeof second, "%s.v", f->path);
+  snprintf(third, sizeof third, "%s.static", f->path);
+  write_model(f, positions);
+  assert_int_equal(rename(f->path, third), 0);
+  write_model(f, v);
+  assert_int_equal(rename(f->path, second), 0);
+  write_model(f, u);
+  fg_field *field =
+      read_with(f, &(fg_read_options){.vars_from = second, .mesh_from = third});
+  assert_flow(field, 400);
+  fg_field_destroy(field);
+  unlink(second);
+  unlink(third);
+}
+
 /* Land west of column 6 is only in the mask; velocities are zero there. */
 static void masks_keep_land_out(void **state)
 {
@@ -419,6 +442,7 @@ int main(void)
       CASE(levels_in_two_files),
       CASE(nominal_axes_are_not_positions),
       CASE(positions_in_a_second_file),
+      CASE(positions_in_a_third_file),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -304,7 +304,7 @@ static void dimensions_that_fit_nothing_are_refused(void **state)
   sample_variable(f, "v", NC_FLOAT, 5, all);
   sample_end(f);
   refuse(f, "dimension 'member' of 3 samples is neither time nor level");
-  assert_non_null(strstr(fg_context_hint(f->context), "ncks -d member,0"));
+  assert_non_null(strstr(fg_context_hint(f->context), "--at member=0"));
   sample_begin(f, 0);
   all[0] = sample_dimension(f, "time", NC_UNLIMITED);
   all[1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");

@@ -65,7 +65,7 @@ static fg_status fail_unknown_name(const fg__nc_file *file, const candidates *al
   char list[1024];
   fg_status status =
       fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
-               file->paths[file->root_count - 1], name);
+               file->paths[file->component_files - 1], name);
   list_pairs(all, NULL, list, sizeof list);
   if (list[0])
     fg__hint(file->context, "pairs in it: %s", list);
@@ -120,7 +120,7 @@ static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
     return fail_names(file, all, vars);
   *out = (fg__nc_pair){.found_by = "request", .volume = count == 3};
   for (int k = 0; k < count; ++k) {
-    out->component[k] = find_named(file, name[k], k > 0 ? file->root_count - 1 : 0);
+    out->component[k] = find_named(file, name[k], k > 0 ? file->component_files - 1 : 0);
     if (!out->component[k])
       return fail_unknown_name(file, all, name[k]);
   }
@@ -168,7 +168,7 @@ static fg_status fail_no_vectors(const fg__nc_file *file)
       fg__fail(file->context, FG_STATUS_UNSUPPORTED,
                "%s: no vectors found among its %zu variable%s%s", file->paths[0],
                file->variable_count, file->variable_count == 1 ? "" : "s", names);
-  if (file->root_count == 1)
+  if (file->component_files == 1)
     fg__hint(file->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
   else

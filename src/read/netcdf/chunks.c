@@ -229,16 +229,16 @@ int fg__nc_fetch(const fg__nc_variable *v, const size_t *start, const size_t *co
                  double *out)
 {
   size_t first[FG__NC_RANK + 1], counts[FG__NC_RANK + 1];
+  for (int k = 0; k < v->rank; ++k) {
+    first[k] = start[k] + v->owner->dimensions[v->dimension[k]].chosen;
+    counts[k] = count[k];
+  }
   if (v->element > 0) {
-    memcpy(first, start, (size_t)v->rank * sizeof *first);
-    memcpy(counts, count, (size_t)v->rank * sizeof *counts);
     first[v->rank] = (size_t)v->element - 1;
     counts[v->rank] = 1;
-    start = first;
-    count = counts;
   }
-  const int error = fg__nc_check_chunks(v, start, count);
-  return error ? error : nc_get_vara_double(v->group, v->id, start, count, out);
+  const int error = fg__nc_check_chunks(v, first, counts);
+  return error ? error : nc_get_vara_double(v->group, v->id, first, counts, out);
 }
 
 int fg__nc_fetch_one(const fg__nc_variable *v, const size_t *index, double *out)

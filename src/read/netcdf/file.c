@@ -195,8 +195,8 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
                            const fg__source *source)
 {
   file->context = context;
-  if (file->root_count == 2)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "%s: a third file", source->path);
+  if (file->root_count == FG__NC_FILES)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "%s: one file too many", source->path);
   fg__nc_storage *storage = &file->storage[file->root_count];
   fg_status status = fg__nc_check_size(context, source);
   if (status == FG_STATUS_OK &&
@@ -220,6 +220,8 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
   file->paths[file->root_count] = path;
   file->sizes[file->root_count] = source->size;
   file->roots[file->root_count++] = root;
+  if (file->root_count == 1)
+    file->component_files = 1;
   status = list_group(file, root, root, "", path, 0);
   /* the array may have moved as it grew */
   for (size_t i = 0; i < file->variable_count; ++i) {
@@ -236,7 +238,7 @@ void fg__nc_file_close(fg__nc_file *file)
     nc_close(file->roots[i]);
     free(file->paths[i]);
   }
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < FG__NC_FILES; ++i)
     fg__nc_storage_close(&file->storage[i]);
   free(file->dimensions);
   free(file->variables);

@@ -63,7 +63,9 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
   const fg__nc_variable *of_a = fg__nc_coordinate(file, a, k);
   const fg__nc_variable *of_b = fg__nc_coordinate(file, b, k);
   if (!of_a || !of_b)
-    return !of_a && !of_b && a->file != b->file;
+    return !of_a && !of_b && a->file != b->file &&
+           strcmp(file->dimensions[a->dimension[k]].name,
+                  file->dimensions[b->dimension[k]].name) == 0;
   return fits_file(file, of_a, n) && fits_file(file, of_b, n) &&
          same_numbers(of_a, of_b, n);
 }

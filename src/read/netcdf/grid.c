@@ -88,8 +88,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
     fg__set_unusable(grid->unusable,
                      "dimension '%.120s' of %zu samples is neither time nor level",
                      d->name, d->length);
-    snprintf(grid->hint, sizeof grid->hint,
-             "one of them can be read by itself, as cut out by ncks -d %.80s,0 IN OUT",
+    snprintf(grid->hint, sizeof grid->hint, "--at %.80s=0 reads the first of them",
              d->name);
     return;
   }

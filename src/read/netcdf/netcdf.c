@@ -14,7 +14,7 @@ static bool is_netcdf(const unsigned char *bytes, size_t size)
   return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
 }
 
-static fg_status add_second_file(fg__nc_file *file, fg_context *context, const char *path)
+static fg_status add_file(fg__nc_file *file, fg_context *context, const char *path)
 {
   fg__source source;
   fg_status status = fg__source_open(&source, context, path);
@@ -27,36 +27,40 @@ static fg_status add_second_file(fg__nc_file *file, fg_context *context, const c
   return status;
 }
 
-/* Whether positions of a curvilinear grid, its angle or its mask are in the second file.
- */
-static bool uses_second(const fg__nc_mesh *mesh)
+/* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
+static bool uses_file(const fg__nc_mesh *mesh, int number)
 {
   const fg__nc_variable *all[] = {mesh->centre.variable, mesh->part[0].longitude,
                                   mesh->part[1].longitude, mesh->angle[0], mesh->mask};
   for (size_t n = 0; n < sizeof all / sizeof *all; ++n)
-    if (all[n] && all[n]->file == 1)
+    if (all[n] && all[n]->file == number)
       return true;
   return false;
 }
 
-/* Components are searched in both files. When neither they, their mesh nor the mask are
- * in the second file, it is refused as the wrong file. */
-static fg_status check_second(const fg__nc_file *file, const fg__nc_pair *pair,
-                              const fg__nc_grid *grid, const char *mask)
+/* A further file of which neither a component, the mesh nor the mask is used is refused
+ * as the wrong one. */
+static fg_status check_used(const fg__nc_file *file, int number, const fg__nc_pair *pair,
+                            const fg__nc_grid *grid, const char *mask)
 {
   const fg__nc_variable *masked = mask ? fg__nc_find(file, mask) : NULL;
-  bool used = file->root_count < 2 || (masked && masked->file == 1) ||
-              (grid->mesh && uses_second(grid->mesh)) ||
-              (grid->unstructured && fg__nc_unstructured_file(grid->unstructured) == 1);
+  bool used =
+      (masked && masked->file == number) ||
+      (grid->mesh && uses_file(grid->mesh, number)) ||
+      (grid->unstructured && fg__nc_unstructured_file(grid->unstructured) == number);
   for (int k = 0; k < 3; ++k)
-    used = used || (pair->component[k] && pair->component[k]->file == 1);
+    used = used || (pair->component[k] && pair->component[k]->file == number);
   if (used)
     return FG_STATUS_OK;
+  const bool mesh = number >= file->component_files;
   fg__fail(file->context, FG_STATUS_ARGUMENT,
-           "%s: gives no component: '%.200s' and '%.200s' are both of %s", file->paths[1],
-           pair->component[0]->name, pair->component[1]->name, file->paths[0]);
+           mesh ? "%s: gives no position: '%.200s' and '%.200s' lie on the grid of %s"
+                : "%s: gives no component: '%.200s' and '%.200s' are both of %s",
+           file->paths[number], pair->component[0]->name, pair->component[1]->name,
+           pair->component[0]->path);
   fg__hint(file->context,
-           "name one of its variables with --vars, or leave out --vars-from");
+           mesh ? "leave out --mesh-from"
+                : "name one of its variables with --vars, or leave out --vars-from");
   return FG_STATUS_ARGUMENT;
 }
 
@@ -176,8 +180,14 @@ static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
                         const fg_read_options *options)
 {
   fg_status status = fg__nc_file_open(file, context, source);
-  if (status == FG_STATUS_OK && options->vars_from)
-    status = add_second_file(file, context, options->vars_from);
+  if (status == FG_STATUS_OK && options->vars_from) {
+    status = add_file(file, context, options->vars_from);
+    file->component_files = 2;
+  }
+  if (status == FG_STATUS_OK && options->mesh_from)
+    status = add_file(file, context, options->mesh_from);
+  if (status == FG_STATUS_OK && options->at)
+    status = fg__nc_choose_samples(file, options->at);
   return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
 }
 
@@ -187,8 +197,8 @@ static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *
                              const fg_read_options *options)
 {
   fg_status status = choose(file, pair, grid, context, source, options);
-  if (status == FG_STATUS_OK)
-    status = check_second(file, pair, grid, options->mask);
+  for (int n = 1; n < file->root_count && status == FG_STATUS_OK; ++n)
+    status = check_used(file, n, pair, grid, options->mask);
   if (status == FG_STATUS_OK)
     status = check_index(file, "time", options->time, grid->time, grid->times,
                          grid->time_name);
@@ -433,6 +443,7 @@ static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
 
 const fg__format fg__format_netcdf = {
     .name = "NetCDF",
+    .has_dimensions = true,
     .files = "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4)",
     .is_mine = is_netcdf,
     .inventory = describe,

@@ -13,6 +13,7 @@
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
 
 enum {
+  FG__NC_FILES = 3,                 /* the input and two more with what it lacks */
   FG__NC_RANK = 8,                  /* more dimensions than any field has */
   FG__NC_TEXT = 256,                /* bytes kept of a text attribute */
   FG__NC_NAME = 2 * NC_MAX_NAME + 2 /* group/variable */
@@ -52,13 +53,15 @@ typedef struct fg__nc_dimension {
   int id;
   int root; /* ncid of the file it belongs to */
   char name[NC_MAX_NAME + 1];
-  size_t length;
+  size_t length; /* 1 where one sample is chosen */
+  size_t chosen; /* the first sample that is read: 0, or the chosen one */
+  bool is_chosen;
   bool unlimited;
 } fg__nc_dimension;
 
 typedef struct fg__nc_variable {
   struct fg__nc_file *owner;
-  int file;  /* 0 or 1 */
+  int file;  /* below FG__NC_FILES */
   int group; /* ncid */
   int id;
   char name[FG__NC_NAME]; /* with the names of its groups: "ocean/u" */
@@ -71,14 +74,15 @@ typedef struct fg__nc_variable {
                   counted in `rank`; 0: it is a whole variable */
 } fg__nc_variable;
 
-/* One or two NetCDF files (the second holds the other component). */
+/* The input and up to two files with what it lacks: the other component, the mesh. */
 typedef struct fg__nc_file {
   fg_context *context;
-  int roots[2];
-  char *paths[2];
-  size_t sizes[2]; /* bytes */
-  fg__nc_storage storage[2];
+  int roots[FG__NC_FILES];
+  char *paths[FG__NC_FILES];
+  size_t sizes[FG__NC_FILES]; /* bytes */
+  fg__nc_storage storage[FG__NC_FILES];
   int root_count;
+  int component_files; /* so many of them, from the first, may hold components */
   fg__nc_dimension *dimensions;
   size_t dimension_count, dimension_capacity;
   fg__nc_variable *variables;
@@ -86,11 +90,19 @@ typedef struct fg__nc_file {
   bool exhausted; /* memory for an attribute was lacking; the context has the message */
 } fg__nc_file;
 
-/* Opens a source and lists its dimensions and variables; may be called a second time to
- * add another file. FILE_FORMAT, MEMORY. */
+/* Opens a source and lists its dimensions and variables; may be called again to add a
+ * file. FILE_FORMAT, MEMORY. */
 fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
                            const fg__source *source);
 void fg__nc_file_close(fg__nc_file *file);
+
+/* chosen.c. Chooses samples of dimensions, "number=2,expver=0": the dimensions become
+ * ones of that sample alone. ARGUMENT, UNSUPPORTED, MEMORY. */
+fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text);
+
+/* Adds to `words` those of the samples that are chosen of a variable's dimensions. */
+fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
+                              char *words, size_t size);
 
 /* MEMORY where an attribute could not be read for lack of memory, else `status`. */
 fg_status fg__nc_status(const fg__nc_file *file, fg_status status);
@@ -391,7 +403,7 @@ fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
 
-/* date_texts.c. The variable with a date as text for each index of a dimension, or
+/* time/date_texts.c. The variable with a date as text for each index of a dimension, or
  * NULL. */
 const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension);
 

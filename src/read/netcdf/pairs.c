@@ -297,7 +297,7 @@ static bool list_patterns(pattern_list *list, const fg__nc_file *file)
     const fg__nc_variable *v = &file->variables[i];
     char text[FG__NC_TEXT];
     char label[FG__NC_TEXT];
-    if (!may_be_component(file, v))
+    if (v->file >= file->component_files || !may_be_component(file, v))
       continue;
     fg__nc_text(v, "units", text, sizeof text);
     const fg__nc_quantity quantity = fg__nc_units(text, label, sizeof label);
@@ -433,7 +433,8 @@ static bool add_vectors(pair_list *pairs, const fg__nc_file *file)
 {
   for (size_t i = 0; i + 1 < file->variable_count; ++i) {
     char units[FG__NC_TEXT], label[FG__NC_TEXT];
-    if (file->variables[i].element != 1)
+    if (file->variables[i].element != 1 ||
+        file->variables[i].file >= file->component_files)
       continue;
     fg__nc_text(&file->variables[i], "units", units, sizeof units);
     const bool velocity =
@@ -467,8 +468,9 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
   bool memory = list_patterns(&list, file);
   if (list.count > 0)
     qsort(list.entry, list.count, sizeof *list.entry, compare_patterns);
-  memory = memory && pair_groups(&pairs, file, &list, file->root_count == 2);
-  if (pairs.count == 0 && file->root_count == 2) /* the second has positions or a mask */
+  memory = memory && pair_groups(&pairs, file, &list, file->component_files > 1);
+  /* the second may have only positions or a mask */
+  if (pairs.count == 0 && file->component_files > 1)
     memory = memory && pair_groups(&pairs, file, &list, false);
   free(list.entry);
   memory = memory && add_vectors(&pairs, file);

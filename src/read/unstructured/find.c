@@ -239,10 +239,7 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
       fg__set_unusable(grid->unusable, "%s", search.lacks);
     if (search.elsewhere)
       snprintf(grid->hint, sizeof grid->hint, "%s",
-               file->root_count == 1
-                   ? "--vars-from names a second file, which may have the mesh"
-                   : "only two files are read: the mesh has to be put into one of them, "
-                     "as by ncks -A MESH.nc FILE.nc");
+               "--mesh-from names the file that has it");
     return FG_STATUS_OK;
   }
   grid->unstructured = mesh;

@@ -156,4 +156,25 @@ static inline int put_corners(const sample_file *f, const char *name,
   return id;
 }
 
+/* Every sample is the flow's; returns how many have a value. */
+static inline size_t assert_flow(const fg_field *field, double tolerance)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  size_t found = 0;
+  for (int j = 0; j < a->size[1]; ++j)
+    for (int i = 0; i < a->size[0]; ++i) {
+      const size_t n = (size_t)j * (size_t)a->size[0] + (size_t)i;
+      double flow[2];
+      flow_at(flow, a->axis[0][i], a->axis[1][j]);
+      if (isnan(a->velocity[0][n]))
+        continue;
+      ++found;
+      if (hypot((double)a->velocity[0][n] - flow[0],
+                (double)a->velocity[1][n] - flow[1]) > tolerance)
+        fail_msg("at %g, %g: %g, %g instead of %g, %g", a->axis[0][i], a->axis[1][j],
+                 (double)a->velocity[0][n], (double)a->velocity[1][n], flow[0], flow[1]);
+    }
+  return found;
+}
+
 #endif

@@ -4,27 +4,6 @@
 #include "read/unstructured/mesh_example.h"
 #include "read/unstructured/unstructured.h"
 
-/* Every sample is the flow's; returns how many have a value. */
-static size_t assert_flow(const fg_field *field, double tolerance)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  size_t found = 0;
-  for (int j = 0; j < a->size[1]; ++j)
-    for (int i = 0; i < a->size[0]; ++i) {
-      const size_t n = (size_t)j * (size_t)a->size[0] + (size_t)i;
-      double flow[2];
-      flow_at(flow, a->axis[0][i], a->axis[1][j]);
-      if (isnan(a->velocity[0][n]))
-        continue;
-      ++found;
-      if (hypot((double)a->velocity[0][n] - flow[0],
-                (double)a->velocity[1][n] - flow[1]) > tolerance)
-        fail_msg("at %g, %g: %g, %g instead of %g, %g", a->axis[0][i], a->axis[1][j],
-                 (double)a->velocity[0][n], (double)a->velocity[1][n], flow[0], flow[1]);
-    }
-  return found;
-}
-
 static void assert_rule(sample_file *f, const char *words)
 {
   fg_inventory *inventory;
@@ -412,44 +391,13 @@ static void vectors_of_one_variable(void **state)
   fg_inventory_destroy(inventory);
 }
 
-/* Vectors along one dimension, whose mesh is in a file that is not given: it is named,
- * and no plane of times or levels is read. */
-static void absent_meshes_are_named(void **state)
-{
-  static const struct {
-    attributes of;
-    const char *words;
-  } cases[] = {
-      {{"mesh", "SCHISM_hgrid", NULL, NULL}, "lies on the mesh 'SCHISM_hgrid', which is"},
-      {{"CDI_grid_type", "unstructured", NULL, NULL}, "an unstructured grid (CDI_grid"}};
-  static double values[2 * NODES];
-  sample_file *f = *state;
-  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    sample_begin(f, 0);
-    const int dimension[2] = {sample_dimension(f, "layers", 2),
-                              sample_dimension(f, "nodes", NODES)};
-    for (int k = 0; k < 2; ++k)
-      put(f, U_V[k], NC_DOUBLE, 2, dimension, values, cases[n].of);
-    sample_end(f);
-    refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, cases[n].words);
-    assert_non_null(strstr(fg_context_hint(f->context), "--vars-from"));
-  }
-}
-
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(ugrid),
-      CASE(cells_with_bounds),
-      CASE(points_alone),
-      CASE(mpas),
-      CASE(fvcom_in_metres),
-      CASE(healpix_numbers),
-      CASE(healpix_files),
-      CASE(faults_are_named),
-      CASE(absent_meshes_are_named),
-      CASE(vectors_of_one_variable),
+      CASE(ugrid),         CASE(cells_with_bounds), CASE(points_alone),
+      CASE(mpas),          CASE(fvcom_in_metres),   CASE(healpix_numbers),
+      CASE(healpix_files), CASE(faults_are_named),  CASE(vectors_of_one_variable),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

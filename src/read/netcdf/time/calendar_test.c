@@ -1,6 +1,6 @@
 /* Days and dates of each calendar. */
 #include "base/context_test.h"
-#include "read/netcdf/calendar.h"
+#include "read/netcdf/time/calendar.h"
 
 enum { CALENDARS = FG__CALENDAR_360_DAYS + 1 };
 
@@ -110,5 +110,5 @@ int main(void)
       cmocka_unit_test(lengths_of_years),
       cmocka_unit_test(names),
   };
-  return cmocka_run_group_tests_name("read/netcdf/calendar", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("read/netcdf/time/calendar", tests, NULL, NULL);
 }

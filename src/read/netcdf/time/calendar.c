@@ -1,4 +1,4 @@
-#include "read/netcdf/calendar.h"
+#include "read/netcdf/time/calendar.h"
 
 #include <stddef.h>
 #include <strings.h>

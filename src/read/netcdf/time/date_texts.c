@@ -36,7 +36,9 @@ static size_t letters_of(const fg__nc_variable *texts)
 static fg_status read_letters(char *out, const fg__nc_variable *texts, size_t first,
                               size_t count)
 {
-  const size_t start[2] = {first, 0}, counts[2] = {count, letters_of(texts)};
+  const fg__nc_dimension *dates = &texts->owner->dimensions[texts->dimension[0]];
+  const size_t start[2] = {first + dates->chosen, 0},
+               counts[2] = {count, letters_of(texts)};
   int error = fg__nc_check_chunks(texts, start, counts);
   if (!error)
     error = nc_get_vara_text(texts->group, texts->id, start, counts, out);

@@ -1,0 +1,152 @@
+/* Dimensions that are neither time nor level, of which one sample is chosen. */
+#include "read/netcdf/plain_test.h"
+
+enum { TIMES = 2, MEMBERS = 3, VERSIONS = 2, LEVELS = 2 };
+enum { ALL = TIMES * MEMBERS * VERSIONS * LEVELS * COUNT };
+
+/* What tells the samples apart is added to u and v. */
+static double marked(int member, int version)
+{
+  return 1000.0 * member + 10000.0 * version;
+}
+
+/* A file with u, v along time, member, version, lev, y, x; in chunks of two members. */
+static void make_ensemble(sample_file *f, int mode)
+{
+  static const double member[MEMBERS] = {0.0, 10.0, 20.0}, lev[LEVELS] = {850.0, 500.0};
+  static double values[ALL];
+  const size_t chunk[6] = {1, 2, VERSIONS, 1, NY, NX};
+  sample_begin(f, mode);
+  int all[6];
+  all[0] = sample_dimension(f, "time", TIMES);
+  all[1] = sample_axis(f, "member", MEMBERS, member, "1");
+  all[2] = sample_dimension(f, "version", VERSIONS);
+  all[3] = sample_axis(f, "lev", LEVELS, lev, "hPa");
+  all[4] = sample_axis(f, "y", NY, Y, "km");
+  all[5] = sample_axis(f, "x", NX, X, "km");
+  for (int k = 0; k < 2; ++k) {
+    const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 6, all);
+    if (mode & NC_NETCDF4)
+      nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
+    for (int n = 0; n < ALL; ++n) {
+      const double x = X[n % NX], y = Y[n / NX % NY];
+      const int z = n / COUNT % LEVELS, version = n / COUNT / LEVELS % VERSIONS;
+      const int above = n / COUNT / LEVELS / VERSIONS;
+      const int t = above / MEMBERS;
+      values[n] = (k == 0 ? u_of : v_of)(x, y, t, z) + marked(above % MEMBERS, version);
+    }
+    sample_put(f, id, values);
+  }
+  sample_end(f);
+}
+
+static void one_of_several_dimensions_is_read(void **state)
+{
+  static const struct {
+    const char *at, *level;
+    int member, version;
+  } cases[] = {{"member=0,version=0", "500 hPa, member 0, version 0", 0, 0},
+               {"version=1,member=2", "500 hPa, member 20, version 1", 2, 1},
+               {"member=10.,version=1", "500 hPa, member 10, version 1", 1, 1}};
+  sample_file *f = *state;
+  for (size_t n = 0; n < 2 * sizeof cases / sizeof *cases; ++n) {
+    make_ensemble(f, n % 2 ? NC_NETCDF4 : 0);
+    fg_field *field =
+        read_with(f, &(fg_read_options){.at = cases[n / 2].at, .time = 1, .level = 1});
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_string_equal(a->level, cases[n / 2].level);
+    const double mark = marked(cases[n / 2].member, cases[n / 2].version);
+    for (int i = 0; i < COUNT; ++i) {
+      const double x = X[i % NX], y = Y[i / NX];
+      assert_true(a->velocity[0][i] == (float)(u_of(x, y, 1, 1) + mark));
+      assert_true(a->velocity[1][i] == (float)(v_of(x, y, 1, 1) + mark));
+    }
+    fg_field_destroy(field);
+  }
+}
+
+/* A time can be chosen so, too, and is named. */
+static void any_dimension_can_be_chosen(void **state)
+{
+  sample_file *f = *state;
+  make_ensemble(f, 0);
+  fg_field *field =
+      read_with(f, &(fg_read_options){.at = "time=1,lev=500hPa,member=1,version=0"});
+  const fg_field_arrays *a = fg_field_contents(field);
+  assert_string_equal(a->level, "time 1, member 10, version 0, 500 hPa");
+  assert_true(a->velocity[0][0] == (float)(u_of(X[0], Y[0], 1, 1) + marked(1, 0)));
+  fg_field_destroy(field);
+}
+
+static void choices_are_checked(void **state)
+{
+  static const struct {
+    const char *at, *words;
+    fg_status status;
+  } faults[] = {
+      {NULL, "dimension 'member' of 3 samples is neither time nor level",
+       FG_STATUS_UNSUPPORTED},
+      {"member=0", "dimension 'version' of 2", FG_STATUS_UNSUPPORTED},
+      {"member", "'member' is no choice of", FG_STATUS_ARGUMENT},
+      {"member=", "'member=' is no choice of", FG_STATUS_ARGUMENT},
+      {"=2", "'=2' is no choice of", FG_STATUS_ARGUMENT},
+      {"member=0,", "'' is no choice of", FG_STATUS_ARGUMENT},
+      {"number=0", "has no dimension 'number'", FG_STATUS_ARGUMENT},
+      {"member=0,member=1", "has no dimension 'member'", FG_STATUS_ARGUMENT},
+      {"member=3", "member 3 asked for, and there are 3", FG_STATUS_UNSUPPORTED},
+      {"member=0:1,version=0", "'member=0:1' are 2 samples", FG_STATUS_ARGUMENT},
+      {"member=all,version=0", "'member=all' are 3 samples", FG_STATUS_ARGUMENT},
+      {"member=0,version=0,x=1", "its x axis 'x' has only 1", FG_STATUS_UNSUPPORTED}};
+  sample_file *f = *state;
+  make_ensemble(f, 0);
+  for (size_t n = 0; n < sizeof faults / sizeof *faults; ++n) {
+    fg_field *field = NULL;
+    fg_context_clear(f->context);
+    const fg_status status = fg_field_read(&field, f->context, f->path,
+                                           &(fg_read_options){.at = faults[n].at});
+    if (status != faults[n].status ||
+        !strstr(fg_context_message(f->context), faults[n].words))
+      fail_msg("%s: %d, \"%s\"", faults[n].at ? faults[n].at : "", (int)status,
+               fg_context_message(f->context));
+    assert_null(field);
+  }
+  assert_int_equal(fg_field_read(&(fg_field *){NULL}, f->context, "synth:saddle",
+                                 &(fg_read_options){.at = "member=1"}),
+                   FG_STATUS_ARGUMENT);
+}
+
+/* Readers without named dimensions say so, also of a file with the mesh. */
+static void other_formats_refuse_choices(void **state)
+{
+  static const fg_read_options of[] = {{.at = "x=1"}, {.mesh_from = "mesh.nc"}};
+  static const char *const words[] = {"a sample of a named dimension", "a file with the"};
+  sample_file *f = *state;
+  FILE *table = fopen(f->path, "w");
+  assert_non_null(table);
+  fputs("x,y,u,v\n0,0,1,1\n1,0,1,2\n0,1,1,3\n1,1,1,4\n", table);
+  assert_int_equal(fclose(table), 0);
+  for (int n = 0; n < 2; ++n) {
+    fg_field *field = NULL;
+    fg_inventory *inventory = NULL;
+    assert_int_equal(fg_field_read(&field, f->context, f->path, &of[n]),
+                     FG_STATUS_UNSUPPORTED);
+    assert_non_null(strstr(fg_context_message(f->context), words[n]));
+    fg_context_clear(f->context);
+    assert_int_equal(fg_inventory_read_chosen(&inventory, f->context, f->path, &of[n]),
+                     FG_STATUS_UNSUPPORTED);
+    assert_non_null(strstr(fg_context_message(f->context), words[n]));
+    fg_context_clear(f->context);
+  }
+}
+
+int main(void)
+{
+#define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
+  const struct CMUnitTest tests[] = {
+      CASE(one_of_several_dimensions_is_read),
+      CASE(any_dimension_can_be_chosen),
+      CASE(choices_are_checked),
+      CASE(other_formats_refuse_choices),
+  };
+  return cmocka_run_group_tests_name("read/netcdf/chosen", tests, NULL, NULL);
+}
