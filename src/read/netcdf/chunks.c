@@ -228,8 +228,8 @@ int fg__nc_check_chunks(const fg__nc_variable *v, const size_t *start,
 int fg__nc_fetch(const fg__nc_variable *v, const size_t *start, const size_t *count,
                  double *out)
 {
-  size_t first[FG__NC_RANK + 1], counts[FG__NC_RANK + 1];
-  for (int k = 0; k < v->rank; ++k) {
+  size_t first[FG__NC_RANK + 1] = {0}, counts[FG__NC_RANK + 1] = {0};
+  for (int k = 0; k < v->rank && k < FG__NC_RANK; ++k) {
     first[k] = start[k] + v->owner->dimensions[v->dimension[k]].chosen;
     counts[k] = count[k];
   }
