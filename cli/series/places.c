@@ -79,7 +79,9 @@ static int find_defaults(int *level, fg_context *context,
   }
   *level = settings->level_text ? 0 : defaults.level;
   if (defaults.absent[0] && !quiet)
-    fprintf(stderr, "flowgrain: %s: its coordinates are not in the file: %s\n",
+    fprintf(stderr,
+            "flowgrain: %s: its coordinates are not in the file: %s; "
+            "--mesh-from names another that has them\n",
             input_name(settings->input), clean_text(words, defaults.absent));
   return EXIT_DONE;
 }

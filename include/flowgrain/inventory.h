@@ -100,7 +100,8 @@ typedef struct fg_selection {
  *                value, without a unit in the file's; pressures, lengths and times are
  *                converted
  *   1982-07 1982-07-16 1982-07-16T12:00[:30]   a date is the first time within that
- *                month, day, hour, minute or second
+ *                month, day, hour, minute or second; of dates 1982, too, where it is
+ *                beyond the last index
  *   0:11 1982-01:1982-06 100hPa:850hPa 1982-07-16T12:00/1982-07-17   a range, both ends
  *                with all of their month or day; one end may be left out
  *   surface July words that the file has for it, or a part of them that it has only once;

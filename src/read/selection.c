@@ -307,6 +307,18 @@ static int index_of_value(const value_axis *axis, int number)
   return -1;
 }
 
+/* Of dates a whole number of four digits beyond the last index is a year. */
+static void take_as_year(item *w, const value_axis *axis)
+{
+  fg__period ignored;
+  if (w->kind != ITEM_INDEX || w->index < axis->count || strlen(w->text) != 4 ||
+      index_of_value(axis, w->index) >= 0 || !axis->values ||
+      !fg__period_read_start(&ignored, axis->values[0].words))
+    return;
+  w->kind = ITEM_DATE;
+  w->period = fg__period_of_year(w->index);
+}
+
 static fg_status choose_one(bool *chosen, bool *nearest, const value_axis *axis,
                             const item *w)
 {
@@ -409,10 +421,15 @@ static fg_status choose_item(fg_selection *out, bool *chosen, const value_axis *
       chosen[n] = true;
     return FG_STATUS_OK;
   }
-  if (*text && read_item(&one, text))
+  if (*text && read_item(&one, text)) {
+    take_as_year(&one, axis);
     return axis->count ? choose_one(chosen, &out->nearest, axis, &one) : FG_STATUS_OK;
+  }
   if (!read_range(ends, text))
     return fail_spelling(axis, text);
+  for (int k = 0; k < 2 && (ends[0].kind == ITEM_INDEX || ends[1].kind == ITEM_INDEX);
+       ++k)
+    take_as_year(&ends[k], axis);
   if (is_descending(ends))
     return fg__fail(axis->context, FG_STATUS_ARGUMENT, "'%s' ends before it begins",
                     text);

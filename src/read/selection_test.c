@@ -88,6 +88,23 @@ static void times_with_units_in_words(void **state)
   expect(expected, sizeof expected / sizeof *expected, "time", elapsed, 3);
 }
 
+static void years(void **state)
+{
+  static const fg_axis_value yearly[] = {{0.0, "days since 1982-01-16", "1982-01-16"},
+                                         {28.0, "days since 1982-01-16", "1982-02-13"},
+                                         {365.0, "days since 1982-01-16", "1983-01-16"},
+                                         {1096.0, "days since 1982-01-16", "1985-01-16"}};
+  static const expectation expected[] = {{"1982", "0"},
+                                         {"1983", "2"},
+                                         {"1984", "near 2"},
+                                         {"3", "3"},
+                                         {"1982:1983", "+ 0 1 2"},
+                                         {"1983:", "+ 2 3"},
+                                         {"1985,0", "+ 0 3"}};
+  (void)state;
+  expect(expected, sizeof expected / sizeof *expected, "time", yearly, 4);
+}
+
 static void values_of_levels_with_units(void **state)
 {
   static const expectation expected[] = {
@@ -136,6 +153,9 @@ static void what_is_not_there_is_refused_with_what_is(void **state)
   (void)state;
   refuse("1990-01-01", monthly, MONTHLY, FG_STATUS_UNSUPPORTED,
          "0 is 1982-01-16 12:00, 5 is 1982-06-15 12:00");
+  refuse("1990", monthly, MONTHLY, FG_STATUS_UNSUPPORTED,
+         "no time 1990: 0 is 1982-01-16");
+  refuse("1983:1982", monthly, MONTHLY, FG_STATUS_ARGUMENT, "ends before it begins");
   refuse("6", monthly, MONTHLY, FG_STATUS_UNSUPPORTED, "there are 6");
   refuse("2:6", monthly, MONTHLY, FG_STATUS_UNSUPPORTED, "there are 6");
   refuse("1982-05", monthly + 3, 1, FG_STATUS_UNSUPPORTED, "the only one is 1982-04-16");
@@ -170,6 +190,7 @@ int main(void)
       cmocka_unit_test(dates_indices_and_values_of_times),
       cmocka_unit_test(values_of_levels_with_units),
       cmocka_unit_test(times_with_units_in_words),
+      cmocka_unit_test(years),
       cmocka_unit_test(what_is_not_there_is_refused_with_what_is),
       cmocka_unit_test(misspelt_wishes_are_known_before_reading),
   };

@@ -94,6 +94,13 @@ bool fg__period_read(fg__period *out, const char *text)
   return read_period(out, &text, false) && !*text;
 }
 
+fg__period fg__period_of_year(int year)
+{
+  return (fg__period){.key = 372.0 * year * DAY_SECONDS,
+                      .end_key = 372.0 * (year + 1.0) * DAY_SECONDS,
+                      .seconds = (double)fg__day_number(year, 1, 1) * DAY_SECONDS};
+}
+
 bool fg__period_read_start(fg__period *out, const char *words)
 {
   return read_period(out, &words, true) && (!*words || *words == ' ');

@@ -20,6 +20,9 @@ typedef struct fg__period {
  * space instead of the T and perhaps a Z behind; false for anything else. */
 bool fg__period_read(fg__period *out, const char *text);
 
+/* The period of a year. */
+fg__period fg__period_of_year(int year);
+
 /* The same of the date that words begin with, of a day at least. */
 bool fg__period_read_start(fg__period *out, const char *words);
 
