@@ -70,7 +70,8 @@ bool settings_place(const run_settings *settings)
 fg_placement_options settings_placement(const run_settings *settings)
 {
   return (fg_placement_options){.lengths = (fg_lengths)settings->lengths,
-                                .effort = (fg_effort)settings->effort};
+                                .effort = (fg_effort)settings->effort,
+                                .threads = settings->work.threads};
 }
 
 fg_texture_options settings_texture(const texture_settings *settings)

@@ -26,6 +26,8 @@ typedef enum fg_effort {
 typedef struct fg_placement_options {
   fg_lengths lengths; /* [free] */
   fg_effort effort;   /* [normal] */
+  int threads;        /* where several placements compete: few arrows, or
+                         FG_EFFORT_THOROUGH; the result does not depend on it [all cores] */
 } fg_placement_options;
 
 /* A zero field means its default, in brackets. */
@@ -33,6 +35,7 @@ typedef struct fg_arrows_options {
   int count;          /* how many [40] */
   fg_lengths lengths; /* [free] */
   fg_effort effort;   /* [normal] */
+  int threads;        /* as of a placement [all cores] */
 } fg_arrows_options;
 
 /* Places exactly options->count arrows on a field, 2D or 3D, in one call, from evenly

@@ -17,6 +17,7 @@ struct fg_context {
   char hint[MESSAGE_BYTES];
   bool hint_open; /* the last failure is the one recorded, and has no hint yet */
   atomic_int stop;
+  atomic_int *stop_beside; /* of another context, or NULL */
   fg_input_options input;
   void *shared; /* see fg__context_share */
   void (*end_sharing)(void *shared);
@@ -61,6 +62,16 @@ fg_status fg_context_create(fg_context **out)
     return FG_STATUS_ARGUMENT;
   *out = calloc(1, sizeof **out);
   return *out ? FG_STATUS_OK : FG_STATUS_MEMORY;
+}
+
+fg_status fg__context_create_beside(fg_context **out, fg_context *beside)
+{
+  fg_status status = fg_context_create(out);
+  if (status != FG_STATUS_OK)
+    return fg__fail_memory(beside, "a context", sizeof **out);
+  if (beside)
+    (*out)->stop_beside = beside->stop_beside ? beside->stop_beside : &beside->stop;
+  return FG_STATUS_OK;
 }
 
 void fg_context_destroy(fg_context *context)
@@ -175,7 +186,8 @@ void fg__hint(fg_context *context, const char *format, ...)
 
 fg_status fg__check_stop(fg_context *context)
 {
-  if (context && atomic_load(&context->stop))
+  if (context && (atomic_load(&context->stop) ||
+                  (context->stop_beside && atomic_load(context->stop_beside))))
     return fg__fail(context, FG_STATUS_STOPPED, "stopped on request");
   return FG_STATUS_OK;
 }

@@ -38,6 +38,9 @@ const fg_input_options *fg__context_input(const fg_context *context);
 fg_status fg__check_memory(fg_context *context, const char *name, double samples,
                            double bytes);
 
+/* Creates a context for a thread, which stops when `beside` does. MEMORY. */
+fg_status fg__context_create_beside(fg_context **out, fg_context *beside);
+
 /* FG_STATUS_STOPPED once fg_context_stop was called, else FG_STATUS_OK. */
 fg_status fg__check_stop(fg_context *context);
 

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/memory.h"
@@ -12,6 +13,9 @@
  * for the next one for about that long before it sleeps. Looking in turn with the system
  * keeps more threads than cores going. */
 enum { LOOKS_BEFORE_SLEEP = 20000, LOOKS_BEFORE_YIELD = 500, CACHE_LINE = 64 };
+
+/* Between two looks of a thread that waits at a barrier for longer than that. */
+enum { NAP_NANOSECONDS = 100000 };
 
 struct fg__threads {
   int thread_count;
@@ -62,7 +66,10 @@ void fg__threads_barrier(const fg__thread *thread)
   }
   for (unsigned look = 0;
        atomic_load_explicit(&threads->phase, memory_order_acquire) == phase; ++look)
-    pause_briefly(look);
+    if (look < LOOKS_BEFORE_SLEEP)
+      pause_briefly(look);
+    else /* the work is coarse: the others are far behind */
+      nanosleep(&(struct timespec){.tv_nsec = NAP_NANOSECONDS}, NULL);
 }
 
 /* Waits until there is a piece of work other than `seen`; false when there will be none.

@@ -8,7 +8,8 @@ fg_status fg_arrows_create(fg_icons **out, fg_context *context, const fg_field *
                            const fg_arrows_options *options)
 {
   const fg_arrows_options chosen = options ? *options : (fg_arrows_options){0};
-  const fg_placement_options how = {.lengths = chosen.lengths, .effort = chosen.effort};
+  const fg_placement_options how = {
+      .lengths = chosen.lengths, .effort = chosen.effort, .threads = chosen.threads};
   fg_placement *placement = NULL;
   if (!out)
     return fg__fail(context, FG_STATUS_ARGUMENT, "arrows: no place for the result given");
