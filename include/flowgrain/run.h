@@ -24,7 +24,7 @@ typedef struct fg_run_options {
                          then halved down to 12] */
   int count;          /* of `numbers`, FG_MOST_SCALES at most */
   fg_evolution_options evolution; /* [nodes of arrows: what the first number needs] */
-  fg_placement_options placement; /* of arrows */
+  fg_placement_options placement; /* of arrows; threads [as of the evolution] */
   bool even_start; /* the first scale's arrows start from evenly distributed points [from
                       clusters] */
   const fg_icons *first; /* icons of the first scale, as many as its number, that were

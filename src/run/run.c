@@ -60,6 +60,8 @@ fg_status fg_run_create(fg_run **out, fg_context *context, const fg_field *field
                 .first_icons = o.first,
                 .placement_options = o.placement};
   fg_evolution_options evolution = o.evolution;
+  if (s->placement_options.threads == 0)
+    s->placement_options.threads = evolution.threads;
   if (o.kind == FG_RUN_CLUSTERS)
     fg__plan_start(&s->plan, o.numbers, o.count);
   else
