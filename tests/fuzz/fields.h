@@ -20,11 +20,11 @@ static void describe(const fg__format *format, fg_context *context,
 }
 
 static bool read_part(const fg__format *format, fg_context *context,
-                      const fg__source *source, fg__slab_index slab)
+                      const fg__source *source, const fg_read_options *options,
+                      fg__slab_index slab)
 {
-  static const fg_read_options options = {0};
   fg_field *field = NULL;
-  const fg_status status = format->read(&field, context, source, &options, slab);
+  const fg_status status = format->read(&field, context, source, options, slab);
   assert((status == FG_STATUS_OK) == (field != NULL));
   assert(status == FG_STATUS_OK || fg_context_message(context)[0]);
   if (field) {
@@ -48,8 +48,10 @@ static bool try_format(const fg__format *format, const char *name, const uint8_t
     return false;
   const fg__source source = {.path = name, .bytes = bytes, .size = size};
   describe(format, context, &source);
-  const bool was_read = read_part(format, context, &source, (fg__slab_index){0, 1});
-  read_part(format, context, &source, (fg__slab_index){1, 3});
+  static const fg_read_options usual = {0};
+  const bool was_read =
+      read_part(format, context, &source, &usual, (fg__slab_index){0, 1});
+  read_part(format, context, &source, &usual, (fg__slab_index){1, 3});
   fg_context_destroy(context);
   return was_read;
 }

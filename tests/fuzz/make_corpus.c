@@ -176,23 +176,33 @@ static void make_images(void)
   make_jpeg("image/fault-many-scans.jpg", MANY_SCANS);
 }
 
-/* A pair of variables on an even grid. */
-static void make_netcdf(const char *name, int mode)
+/* A pair of variables on an even grid; of two members each, or of one. */
+static void make_members(const char *name, int mode, bool two)
 {
-  static const double x[] = {1, 2, 3, 4, 5}, y[] = {10, 20, 30, 40};
-  double values[20];
+  static const double x[] = {1, 2, 3, 4, 5}, y[] = {10, 20, 30, 40}, members[] = {0, 7};
+  double values[40];
+  int all[3] = {0};
   sample_file f;
   snprintf(f.path, sizeof f.path, "%.90s", name);
   sample_begin(&f, mode);
-  const int all[2] = {sample_axis(&f, "y", 4, y, "km"), sample_axis(&f, "x", 5, x, "km")};
+  if (two)
+    all[0] = sample_axis(&f, "member", 2, members, "1");
+  all[1] = sample_axis(&f, "y", 4, y, "km");
+  all[2] = sample_axis(&f, "x", 5, x, "km");
   for (int k = 0; k < 2; ++k) {
-    const int id = sample_variable(&f, k ? "v" : "u", NC_FLOAT, 2, all);
+    const int id =
+        sample_variable(&f, k ? "v" : "u", NC_FLOAT, two ? 3 : 2, two ? all : all + 1);
     sample_text(&f, id, "units", "m s-1");
-    for (int n = 0; n < 20; ++n)
+    for (int n = 0; n < 40; ++n)
       values[n] = (3 + k) * n % 11 - 4;
     sample_put(&f, id, values);
   }
   sample_end(&f);
+}
+
+static void make_netcdf(const char *name, int mode)
+{
+  make_members(name, mode, false);
 }
 
 typedef struct staggered_variable {
@@ -415,6 +425,8 @@ static void make_netcdfs(void)
   make_netcdf("netcdf/seed-64-bit-offset.nc", NC_64BIT_OFFSET);
   make_netcdf("netcdf/seed-cdf5.nc", NC_64BIT_DATA);
   make_netcdf("netcdf/seed-netcdf4.nc", NC_NETCDF4);
+  make_members("netcdf/seed-members.nc", NC_CLASSIC_MODEL, true);
+  make_members("netcdf/seed-members4.nc", NC_NETCDF4, true);
   make_staggered("netcdf/seed-staggered.nc");
   make_projected("netcdf/seed-projected.nc");
   make_unstructured();
