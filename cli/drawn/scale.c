@@ -109,6 +109,10 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   fg_read_options reading = report->reading;
   if (is_on_another_map(settings))
     reading.map = &settings->map;
+  if (settings->vars_from)
+    reading.vars_from = settings->vars_from;
+  if (settings->mesh_from)
+    reading.mesh_from = settings->mesh_from;
   if (settings->output && check_is_no_input(settings->output, &input, 1))
     return EXIT_FAILED; /* the pictures of a series are in its folder */
   if (sandbox_reading(input, &reading))
@@ -187,6 +191,36 @@ static int make_regions(drawn_scale *scale, fg_context *context,
   return status ? complain_of(context, status, run->folder) : EXIT_DONE;
 }
 
+static bool is_in_box(const fg_field_arrays *field, const double point[3])
+{
+  for (int k = 0; k < 2; ++k)
+    if (!(point[k] >= field->axis[k][0] &&
+          point[k] <= field->axis[k][field->size[k] - 1]))
+      return false;
+  return true;
+}
+
+/* A word about arrows of which half would be seen, but not the head. */
+static void report_headless(const drawn_scale *scale)
+{
+  const fg_field_arrays *field = fg_field_contents(scale->run->field);
+  int headless = 0;
+  for (int n = 0; n < fg_icons_count(scale->icons); ++n) {
+    const fg_icon *icon = fg_icons_at(scale->icons, n);
+    int seen = 0;
+    for (int i = 0; i < icon->point_count; ++i)
+      seen += is_in_box(field, icon->points[i]);
+    headless += 2 * seen >= icon->point_count &&
+                !is_in_box(field, icon->points[icon->point_count - 1]);
+  }
+  if (headless)
+    fprintf(stderr,
+            "flowgrain: %s: %d arrow%s left out, for the head%s beyond the region; "
+            "run --region places arrows in it\n",
+            scale->run->folder, headless, headless == 1 ? " is" : "s are",
+            headless == 1 ? " lies" : "s lie");
+}
+
 int drawn_scale_read(drawn_scale *scale, fg_context *context,
                      const draw_settings *settings)
 {
@@ -200,6 +234,8 @@ int drawn_scale_read(drawn_scale *scale, fg_context *context,
     code = complain_of(context, status, scale->file ? scale->file : run->folder);
   if (is_on_another_map(settings)) /* the recorded error is of the run's map */
     fg_icons_keep_score(scale->icons, NULL);
+  if (!code && settings->map.has_region)
+    report_headless(scale);
   if (!code)
     code = read_density(scale, context, settings);
   if (!code)

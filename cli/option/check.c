@@ -67,9 +67,8 @@ static bool check_slice(const reading_settings *settings, const cli_command *com
                      settings->slice);
 }
 
-static bool check_map(const reading_settings *settings, const cli_command *command)
+static bool check_map(const fg_map_options *map, const cli_command *command)
 {
-  const fg_map_options *map = &settings->map;
   const bool none = map->projection && strcmp(map->projection, "none") == 0;
   if (none && (map->has_center || map->has_region))
     return usage_error(command,
@@ -163,14 +162,16 @@ bool options_check(const any_settings *settings, const cli_command *command)
     return false;
   if ((command->bit & DESCRIBERS) && !check_slice(reading, command))
     return false;
-  if ((command->bit & READERS) && !check_map(reading, command))
+  if ((command->bit & READERS) &&
+      !check_map(&((const reading_settings *)reading)->map, command))
     return false;
   if ((command->bit & (PICTURES | COMMAND_TEXTURE)) && !check_texts(picture, command))
     return false;
   if ((command->bit & PICTURES) && !check_picture(picture, command))
     return false;
   if (command->bit == COMMAND_DRAW)
-    return check_panels(&settings->draw, command);
+    return check_map(&settings->draw.map, command) &&
+           check_panels(&settings->draw, command);
   if (command->bit == COMMAND_TEXTURE)
     return check_energy(&settings->texture.evolution, command);
   if (!(command->bit & RUNS))

@@ -16,6 +16,10 @@ static const option_entry input_entries[] = {
      .help = "every scale, a panel each"},
     {"input", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, OWN(draw, input),
      .help = "where the field is now, if it is no longer where run.json says"},
+    {"vars-from", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, OWN(draw, vars_from),
+     .help = "likewise, the file with the other component"},
+    {"mesh-from", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, OWN(draw, mesh_from),
+     .help = "likewise, the file with the mesh"},
     {"vars", 0, "U,V[,W]", DESCRIBERS, OPTION_TEXT, READING(vars),
      .help =
          "the two or three variables, or one vector variable [found by their standard or "
@@ -37,7 +41,7 @@ static const option_entry input_entries[] = {
      .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
              "too, where there are fewer levels; its words, too: surface [that at the "
              "surface of an ocean, else 0]"},
-    {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at),
+    {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at), .once = true,
      .help = "of a dimension that is neither time nor level, as the members of an "
              "ensemble, the one to read, likewise: number=2; of several, with commas "
              "between (NetCDF)"},

@@ -113,8 +113,9 @@ typedef struct draw_settings {
   operand_list more;  /* further ones */
   const char *output; /* PICTURE */
   const char *input;  /* current path of the input */
-  fg_map_options map; /* instead of the run's map */
-  int scale_index;    /* -1: not given */
+  const char *vars_from, *mesh_from; /* those of further files */
+  fg_map_options map;                /* instead of the run's map */
+  int scale_index;                   /* -1: not given */
   number_list arrows, clusters; /* for each the finest scale with at most this number */
   bool all_scales;
   int columns;             /* of panels; 0: automatic */

@@ -87,6 +87,7 @@ typedef struct option_entry {
   size_t place; /* offset in the group */
   double least, most;
   bool open_below, open_above; /* whether least, most themselves are excluded */
+  bool once;                   /* a second text does not replace the first */
   const char *const *words;    /* terminated by NULL */
   const char *help;            /* a clause, with the default in [brackets] */
 } option_entry;

@@ -312,11 +312,16 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
                const char *typed, const char *text)
 {
   const bool yes = true;
+  const char *before;
   void *out = (char *)settings + option_place(command, option);
   switch (option->kind) {
   case OPTION_TEXT:
     if (!*text)
       return usage_error(command, "%s: its %s is empty", typed, option->argument);
+    memcpy(&before, out, sizeof before);
+    if (option->once && before)
+      return usage_error(command, "%s is given twice: name all in one, as %s,%s", typed,
+                         before, text);
     memcpy(out, &text, sizeof text);
     return true;
   case OPTION_WORDS:

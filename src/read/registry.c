@@ -119,7 +119,8 @@ static fg_status check_choice(fg_context *context, const fg__format *format,
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_UNSUPPORTED, "%s: %s cannot be used with %s",
                   source->path,
-                  options->at ? "a sample of a named dimension" : "a file with the mesh",
+                  options->at ? "a sample of a named dimension (--at)"
+                              : "a file with the mesh (--mesh-from)",
                   format->name);
 }
 

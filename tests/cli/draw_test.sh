@@ -86,6 +86,7 @@ refused 2 '--panel-label a|b|c: 3 labels, and there are 2 panels' placed run -o 
 refused 2 '--columns: of several panels, and x.svg is one picture' placed -o x.svg --columns 2
 refused 2 '--all-scales and --arrows each choose' placed -o x.svg --all-scales --arrows 5
 refused 2 'are drawn as panels of a picture' placed run -o x.glb
+refused 2 '--region: not with --projection none' placed -o x.svg --projection none --region 0,1,0,1
 done_with "draw: panels that cannot be"
 
 try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle 'below' --label 'fast' \

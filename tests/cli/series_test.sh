@@ -95,7 +95,29 @@ cmp -s by-name/scale-00.svg drawn.svg || fault "draw reads another level"
 try run wind.nc -o by-name --resume "${small[@]}" --time 1 --at lev=850hPa
 expect_code 1
 expect_error 'its run was begun with --at lev=300hPa'
+refuse_at() { # PATTERN ARGUMENTS...
+  try run wind.nc -o x "${@:2}"
+  expect_error "$1"
+  expect_one_complaint
+  expect_nothing_at x
+}
+refuse_at '--at is given twice: name all in one, as lev=0,time=1' --at lev=0 --at time=1
+refuse_at "wind.nc: has no dimension 'member'" --at member=0
+refuse_at 'wind.nc: is given twice' --vars-from ./wind.nc
 done_with "a sample of a dimension by its name"
+
+cp wind.nc other.nc
+try run wind.nc --vars u,v --vars-from other.nc -o parted "${small[@]}" --quiet
+expect_code 0
+mv other.nc moved.nc
+try draw parted -o x.svg
+expect_code 1
+expect_error 'other.nc'
+expect_nothing_at x.svg
+try draw parted -o found.svg --vars-from moved.nc
+expect_code 0
+cmp -s parted/scale-00.svg found.svg || fault "another picture"
+done_with "draw: a component's file that has moved"
 
 refuse() { # CODE PATTERN ARGUMENTS...
   local wanted=$1 pattern=$2

@@ -47,9 +47,11 @@ static void list_pairs(const candidates *all, const int *dimension, char *out,
   }
 }
 
+/* A name may begin with the slash of the root group. */
 static const fg__nc_variable *find_named(const fg__nc_file *file, const char *name,
                                          int preferred)
 {
+  name += name[0] == '/';
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
     if (v->file == preferred &&

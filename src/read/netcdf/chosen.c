@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A file of a few bytes may declare a dimension of 2^31 samples. */
+enum { MOST_SAMPLES = 1000000 };
+
 /* The coordinate of a dimension, or NULL. */
 static const fg__nc_variable *coordinate_of(const fg__nc_file *file, int dimension)
 {
@@ -23,6 +26,26 @@ static fg_status fail_not_one(const fg__nc_file *file, const char *name,
                   file->paths[0], name, which, count);
 }
 
+/* Which sample is meant; what is wrong is said of the file. */
+static fg_status select_sample(fg_selection *out, const fg__nc_file *file,
+                               const fg__nc_dimension *d, const char *which,
+                               const fg_axis_value *values)
+{
+  fg_context *own = NULL;
+  fg_status status = fg_context_create(&own);
+  if (status == FG_STATUS_OK)
+    status = fg_selection_find(out, own, d->name, which, values, (int)d->length);
+  if (status != FG_STATUS_OK) {
+    fg__fail(file->context, status, "%s: %s", file->paths[0], fg_context_message(own));
+    fg__hint(file->context,
+             "a whole number is an index, from 0; a value has a point or its unit");
+  } else if (out->count != 1) {
+    status = fail_not_one(file, d->name, which, out->count);
+  }
+  fg_context_destroy(own);
+  return status;
+}
+
 /* Makes a dimension one of a single sample. */
 static fg_status choose_sample(fg__nc_file *file, int dimension, const char *which)
 {
@@ -30,13 +53,18 @@ static fg_status choose_sample(fg__nc_file *file, int dimension, const char *whi
   fg_axis_value *values = NULL;
   char *text = NULL;
   fg_selection selection = {0};
+  if (d->length > MOST_SAMPLES)
+    return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+                    "%s: '%.100s' has %zu samples; one can be chosen of %d at most",
+                    file->paths[0], d->name, d->length, MOST_SAMPLES);
   fg_status status =
       fg__nc_axis_values(&values, &text, file, coordinate_of(file, dimension), d->length);
+  if (status == FG_STATUS_OK && !values) {
+    free(text);
+    status = fg__nc_labels(&values, &text, file, dimension);
+  }
   if (status == FG_STATUS_OK)
-    status = fg_selection_find(&selection, file->context, d->name, which, values,
-                               (int)d->length);
-  if (status == FG_STATUS_OK && selection.count != 1)
-    status = fail_not_one(file, d->name, which, selection.count);
+    status = select_sample(&selection, file, d, which, values);
   if (status == FG_STATUS_OK) {
     d->chosen = (size_t)selection.index[0];
     d->is_chosen = true;
@@ -65,11 +93,15 @@ static void list_dimensions(char *out, size_t size, const fg__nc_file *file)
 static fg_status choose_named(fg__nc_file *file, const char *name, const char *which)
 {
   char known[1024];
-  bool found = false;
+  bool found = false, is_given = false;
   for (size_t i = 0; i < file->dimension_count; ++i) {
     const fg__nc_dimension *d = &file->dimensions[i];
-    if (strcmp(d->name, name) != 0 || d->is_chosen || d->length > INT32_MAX)
+    if (strcmp(d->name, name) != 0)
       continue;
+    if (d->is_chosen) {
+      is_given = true;
+      continue;
+    }
     const fg_status status = choose_sample(file, (int)i, which);
     if (status != FG_STATUS_OK)
       return status;
@@ -77,6 +109,10 @@ static fg_status choose_named(fg__nc_file *file, const char *name, const char *w
   }
   if (found)
     return FG_STATUS_OK;
+  if (is_given)
+    return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                    "%s: of '%.100s' two samples are chosen, and one is read",
+                    file->paths[0], name);
   list_dimensions(known, sizeof known, file);
   fg__fail(file->context, FG_STATUS_ARGUMENT,
            "%s: has no dimension '%.100s' to choose by", file->paths[0], name);
@@ -101,10 +137,27 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
       break;
     }
     *equals = '\0';
-    status = choose_named(file, one, equals + 1);
+    status = choose_named(file, one + strspn(one, " "), equals + 1);
     one = comma ? comma + 1 : NULL;
   }
   free(copy);
+  return status;
+}
+
+/* "member 2", by its coordinate; "scenario ssp585", by its label. */
+static fg_status write_words(char *out, size_t size, const fg__nc_file *file,
+                             int dimension)
+{
+  const fg__nc_dimension *d = &file->dimensions[dimension];
+  const fg__nc_variable *coordinate = coordinate_of(file, dimension);
+  char label[FG__NC_TEXT] = "";
+  fg_status status =
+      coordinate ? FG_STATUS_OK : fg__nc_label(label, file, dimension, d->chosen);
+  if (status == FG_STATUS_OK && label[0])
+    snprintf(out, size, "%s %s", d->name, label);
+  else if (status == FG_STATUS_OK)
+    status = fg__nc_index_words(file, coordinate, d->name, coordinate ? 0 : d->chosen,
+                                out, size);
   return status;
 }
 
@@ -113,16 +166,32 @@ fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *va
 {
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < variable->rank && status == FG_STATUS_OK; ++k) {
-    const fg__nc_dimension *d = &file->dimensions[variable->dimension[k]];
     const size_t used = strlen(words);
     const char *between = used ? ", " : "";
-    if (!d->is_chosen || used + strlen(between) + 1 >= size)
+    if (!file->dimensions[variable->dimension[k]].is_chosen ||
+        used + strlen(between) + 1 >= size)
       continue;
-    const fg__nc_variable *coordinate = coordinate_of(file, variable->dimension[k]);
     strcpy(words + used, between);
-    status =
-        fg__nc_index_words(file, coordinate, d->name, coordinate ? 0 : d->chosen,
-                           words + used + strlen(between), size - used - strlen(between));
+    status = write_words(words + used + strlen(between), size - used - strlen(between),
+                         file, variable->dimension[k]);
   }
   return status;
+}
+
+fg_status fg__nc_check_choices(const fg__nc_file *file, const fg__nc_pair *pair)
+{
+  for (size_t i = 0; i < file->dimension_count; ++i) {
+    const fg__nc_dimension *d = &file->dimensions[i];
+    bool used = !d->is_chosen;
+    for (int n = 0; n < 2; ++n)
+      for (int k = 0; k < pair->component[n]->rank; ++k)
+        used = used || strcmp(file->dimensions[pair->component[n]->dimension[k]].name,
+                              d->name) == 0;
+    if (!used)
+      return fg__fail(file->context, FG_STATUS_ARGUMENT,
+                      "%s: '%.100s' and '%.100s' have no dimension '%.100s' to choose by",
+                      file->paths[0], pair->component[0]->plain_name,
+                      pair->component[1]->plain_name, d->name);
+  }
+  return FG_STATUS_OK;
 }

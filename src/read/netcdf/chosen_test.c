@@ -24,6 +24,7 @@ static void make_ensemble(sample_file *f, int mode)
   all[3] = sample_axis(f, "lev", LEVELS, lev, "hPa");
   all[4] = sample_axis(f, "y", NY, Y, "km");
   all[5] = sample_axis(f, "x", NX, X, "km");
+  sample_dimension(f, "letters", 3);
   for (int k = 0; k < 2; ++k) {
     const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 6, all);
     if (mode & NC_NETCDF4)
@@ -92,10 +93,12 @@ static void choices_are_checked(void **state)
       {"=2", "'=2' is no choice of", FG_STATUS_ARGUMENT},
       {"member=0,", "'' is no choice of", FG_STATUS_ARGUMENT},
       {"number=0", "has no dimension 'number'", FG_STATUS_ARGUMENT},
-      {"member=0,member=1", "has no dimension 'member'", FG_STATUS_ARGUMENT},
+      {"member=0, member=1", "of 'member' two samples are chosen", FG_STATUS_ARGUMENT},
       {"member=3", "member 3 asked for, and there are 3", FG_STATUS_UNSUPPORTED},
       {"member=0:1,version=0", "'member=0:1' are 2 samples", FG_STATUS_ARGUMENT},
       {"member=all,version=0", "'member=all' are 3 samples", FG_STATUS_ARGUMENT},
+      {"member=0,version=0,letters=1", "'u' and 'v' have no dimension 'letters'",
+       FG_STATUS_ARGUMENT},
       {"member=0,version=0,x=1", "its x axis 'x' has only 1", FG_STATUS_UNSUPPORTED}};
   sample_file *f = *state;
   make_ensemble(f, 0);
@@ -113,6 +116,43 @@ static void choices_are_checked(void **state)
   assert_int_equal(fg_field_read(&(fg_field *){NULL}, f->context, "synth:saddle",
                                  &(fg_read_options){.at = "member=1"}),
                    FG_STATUS_ARGUMENT);
+}
+
+/* Samples are chosen by the names that a file has for them, and told by these: strings,
+ * or rows of characters, under the dimension's name or another. */
+static void samples_have_labels(void **state)
+{
+  const char *names[] = {"historical", "ssp126", "ssp585"};
+  sample_file *f = *state;
+  for (int kind = 0; kind < 3; ++kind) {
+    static double values[MEMBERS * COUNT];
+    char letters[MEMBERS][12] = {{0}};
+    sample_begin(f, NC_NETCDF4);
+    const int all[3] = {sample_dimension(f, "scenario", MEMBERS),
+                        sample_axis(f, "y", NY, Y, "km"),
+                        sample_axis(f, "x", NX, X, "km")};
+    const int plane[2] = {all[0], sample_dimension(f, "letters", sizeof letters[0])};
+    const int id = sample_variable(f, kind == 1 ? "label" : "scenario",
+                                   kind ? NC_CHAR : NC_STRING, kind ? 2 : 1, plane);
+    sample_write(f);
+    for (int n = 0; n < MEMBERS; ++n)
+      snprintf(letters[n], sizeof letters[n], "%-11s", names[n]);
+    nc_must(kind ? nc_put_var_text(f->id, id, letters[0])
+                 : nc_put_var_string(f->id, id, names));
+    for (int k = 0; k < 2; ++k) {
+      for (int n = 0; n < MEMBERS * COUNT; ++n)
+        values[n] = 100.0 * (n / COUNT) + n % COUNT + k + 1.0;
+      sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 3, all), values);
+    }
+    sample_end(f);
+    fg_field *field = read_with(f, &(fg_read_options){.at = "scenario=ssp585"});
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_string_equal(a->level, "scenario ssp585");
+    assert_true(a->velocity[0][0] == 201.0f);
+    fg_field_destroy(field);
+    refuse_with(f, &(fg_read_options){.at = "scenario=ssp999"}, FG_STATUS_UNSUPPORTED,
+                "0 is historical, 2 is ssp585");
+  }
 }
 
 /* Readers without named dimensions say so, also of a file with the mesh. */
@@ -146,6 +186,7 @@ int main(void)
       CASE(one_of_several_dimensions_is_read),
       CASE(any_dimension_can_be_chosen),
       CASE(choices_are_checked),
+      CASE(samples_have_labels),
       CASE(other_formats_refuse_choices),
   };
   return cmocka_run_group_tests_name("read/netcdf/chosen", tests, NULL, NULL);

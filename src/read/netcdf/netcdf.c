@@ -8,15 +8,27 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static bool is_netcdf(const unsigned char *bytes, size_t size)
 {
   return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
 }
 
+/* Whether two paths lead to one file. */
+static bool is_one_file(const char *path, const char *other)
+{
+  struct stat a, b;
+  return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
+}
+
 static fg_status add_file(fg__nc_file *file, fg_context *context, const char *path)
 {
   fg__source source;
+  for (int n = 0; n < file->root_count; ++n)
+    if (is_one_file(path, file->paths[n]))
+      return fg__fail(context, FG_STATUS_ARGUMENT, "%s: is given twice", path);
   fg_status status = fg__source_open(&source, context, path);
   if (status == FG_STATUS_OK && !is_netcdf(source.bytes, source.size))
     status = fg__fail(context, FG_STATUS_FILE_FORMAT,
@@ -188,7 +200,9 @@ static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
     status = add_file(file, context, options->mesh_from);
   if (status == FG_STATUS_OK && options->at)
     status = fg__nc_choose_samples(file, options->at);
-  return status == FG_STATUS_OK ? fg__nc_choose(pair, grid, file, options) : status;
+  if (status == FG_STATUS_OK)
+    status = fg__nc_choose(pair, grid, file, options);
+  return status == FG_STATUS_OK ? fg__nc_check_choices(file, pair) : status;
 }
 
 /* The same, with time and level of the options checked. */

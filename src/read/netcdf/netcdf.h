@@ -104,6 +104,14 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text);
 fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
                               char *words, size_t size);
 
+/* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
+ * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
+ * free(), also after a failure). MEMORY, FILE_FORMAT. */
+fg_status fg__nc_label(char out[FG__NC_TEXT], const fg__nc_file *file, int dimension,
+                       size_t index);
+fg_status fg__nc_labels(fg_axis_value **out, char **text, const fg__nc_file *file,
+                        int dimension);
+
 /* MEMORY where an attribute could not be read for lack of memory, else `status`. */
 fg_status fg__nc_status(const fg__nc_file *file, fg_status status);
 
@@ -176,6 +184,9 @@ typedef struct fg__nc_pair {
   int rank;         /* the smallest is the best */
   bool is_velocity; /* units of a speed, unlike a stress or a flux */
 } fg__nc_pair;
+
+/* chosen.c. Refuses choices by a dimension that neither component has. ARGUMENT. */
+fg_status fg__nc_check_choices(const fg__nc_file *file, const fg__nc_pair *pair);
 
 /* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file);

@@ -221,6 +221,11 @@ static void a_second_file_is_of_use_or_refused(void **state)
                    FG_STATUS_ARGUMENT);
   assert_null(field);
   assert_non_null(strstr(fg_context_message(f->context), "second.nc: gives no comp"));
+  const fg_read_options twice = {.vars = "u,v", .vars_from = f->path};
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_read(&field, f->context, f->path, &twice),
+                   FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(f->context), "sample.nc: is given twice"));
   options.mask = "sea";
   field = read_with(f, &options);
   assert_int_equal(fg_field_contents(field)->valid[5], 0);

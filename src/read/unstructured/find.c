@@ -83,8 +83,8 @@ static void name_absent(fg__nc_search *search)
   if (fg__nc_text(u, "mesh", text, sizeof text) && text[0] &&
       !fg__nc_find(search->file, text))
     snprintf(search->lacks, sizeof search->lacks,
-             "'%.60s' lies on the mesh '%.60s', which is not in the file", u->plain_name,
-             text);
+             "'%.60s' lies on the mesh '%.60s', which is not in the file%s",
+             u->plain_name, text, search->file->root_count > 1 ? "s" : "");
   else if (fg__nc_text(u, "CDI_grid_type", text, sizeof text) &&
            strcmp(text, "unstructured") == 0)
     snprintf(search->lacks, sizeof search->lacks,
