@@ -113,7 +113,8 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
     reading.vars_from = settings->vars_from;
   if (settings->mesh_from)
     reading.mesh_from = settings->mesh_from;
-  if (settings->output && check_is_no_input(settings->output, &input, 1))
+  const char *const inputs[] = {input, reading.vars_from, reading.mesh_from};
+  if (settings->output && check_is_no_input(settings->output, inputs, 3))
     return EXIT_FAILED; /* the pictures of a series are in its folder */
   if (sandbox_reading(input, &reading))
     return EXIT_FAILED;

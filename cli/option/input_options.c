@@ -43,7 +43,8 @@ static const option_entry input_entries[] = {
              "surface of an ocean, else 0]"},
     {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at), .once = true,
      .help = "of a dimension that is neither time nor level, as the members of an "
-             "ensemble, the one to read, likewise: number=2; of several, with commas "
+             "ensemble, the one to read: number=2 by its value or, where none has that, "
+             "its index, from 0; scenario=ssp585 by its name; of several, with commas "
              "between (NetCDF)"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
      .help = "variable that is zero (or negative, or missing) outside the domain"},

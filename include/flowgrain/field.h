@@ -34,9 +34,10 @@ typedef struct fg_read_options {
                             the mesh; NULL: none */
   const char *mesh_from; /* file with the positions or the mesh, beside vars_from; NULL:
                             none */
-  const char *at;        /* "number=2,expver=0": of dimensions that are neither time nor
-                            level, the one sample of each to read, by index, value or
-                            words as fg_selection_find has them; NULL: none */
+  const char *at;        /* "number=2,expver=5": of dimensions, as those that are neither
+                            time nor level, the one sample of each to read: by a whole
+                            number that is its value, else its index; or as
+                            fg_selection_find has it; NULL: none */
   int time;              /* index along time, from 0 */
   int level;             /* index along level, from 0 */
   const char *mask;      /* variable that is zero, negative or missing outside the domain;

@@ -14,7 +14,7 @@
  * keeps more threads than cores going. */
 enum { LOOKS_BEFORE_SLEEP = 20000, LOOKS_BEFORE_YIELD = 500, CACHE_LINE = 64 };
 
-/* Between two looks of a thread that waits at a barrier for longer than that. */
+/* Between two looks of a thread that has waited at a barrier for LOOKS_BEFORE_SLEEP. */
 enum { NAP_NANOSECONDS = 100000 };
 
 struct fg__threads {

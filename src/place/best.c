@@ -9,16 +9,16 @@
 
 /* A descent ends in a local minimum that depends on where it starts. So other placements
  * are made, of a first scale from even points, and the best is kept. */
-static const fg__place_way OTHERS[] = {
+static const fg__place_schedule OTHERS[] = {
     {0.65, 1.5}, {0.72, 1.75}, {0.58, 1.75}, {0.5, 2.0}};
 enum { MOST_OTHERS = sizeof OTHERS / sizeof *OTHERS };
 
 /* Others of a first scale, and of one that is reached from a finer one. */
 static const struct {
   int first, coarser;
-} TRIED[] = {[FG_EFFORT_NORMAL] = {1, 4},
-             [FG_EFFORT_QUICK] = {0, 0},
-             [FG_EFFORT_THOROUGH] = {4, 4}};
+} RESTARTS[] = {[FG_EFFORT_NORMAL] = {1, 4},
+                [FG_EFFORT_QUICK] = {0, 0},
+                [FG_EFFORT_THOROUGH] = {4, 4}};
 
 /* Without FG_EFFORT_THOROUGH there are others in 2D only, of up to so many icons of free
  * or fair lengths. */
@@ -31,8 +31,8 @@ static const double LEAST_FINER = 1.5;
  * more. */
 static const double TOUCHING_COUNTS = 4.0;
 
-/* Placements that compete; number 0 is the one that is made where there are no others. */
-typedef struct contest {
+/* The placements to be compared; number 0 is the one that is made without restarts. */
+typedef struct multistart {
   const fg__place_descent *from;
   const fg_icons *clusters;
   int count; /* icons wanted */
@@ -42,30 +42,30 @@ typedef struct contest {
   int next_identity;        /* of that */
   atomic_int begun;         /* placements */
   int fitting;              /* icons of number 0 */
-} contest;
+} multistart;
 
-/* One thread's part: the best of the placements that it has made. */
-typedef struct competitor {
-  contest *in;
+/* One thread, with the best of the placements that it has made. */
+typedef struct worker {
+  multistart *in;
   fg_context *context;
   fg_status status;
   fg__place_search *search; /* NULL: none yet */
   int number;
-  double badness;
-} competitor;
+  double criterion;
+} worker;
 
 /* The readers' error, and more where lines touch. */
-static fg_status judge(fg__place_search *search, double *badness)
+static fg_status judge(fg__place_search *search, double *criterion)
 {
   double touching = 0.0;
-  fg_status status = fg__place_error(search, badness);
+  fg_status status = fg__place_error(search, criterion);
   if (status == FG_STATUS_OK)
     status = fg__place_touching(search, &touching);
-  *badness *= 1.0 + TOUCHING_COUNTS * touching;
+  *criterion *= 1.0 + TOUCHING_COUNTS * touching;
   return status;
 }
 
-static fg_status restore_finer(fg__place_descent *descent, const contest *in)
+static fg_status restore_finer(fg__place_descent *descent, const multistart *in)
 {
   fg_status status = fg__descent_begin(descent, in->finer.count);
   if (status != FG_STATUS_OK)
@@ -74,73 +74,73 @@ static fg_status restore_finer(fg__place_descent *descent, const contest *in)
   return fg__place_restore(descent->search, &in->finer);
 }
 
-static fg_status make(fg__place_descent *descent, const contest *in, int number)
+static fg_status make(fg__place_descent *descent, const multistart *in, int number)
 {
-  const fg__place_way *way = number > 0 ? &OTHERS[number - 1] : NULL;
+  const fg__place_schedule *by = number > 0 ? &OTHERS[number - 1] : NULL;
   fg_status status;
   if (in->is_first) {
-    status = fg__descent_first(descent, in->count, way ? NULL : in->clusters,
-                               way ? way : &fg__place_first_way);
+    status = fg__descent_first(descent, in->count, by ? NULL : in->clusters,
+                               by ? by : &fg__place_first_schedule);
   } else {
     status = restore_finer(descent, in);
     if (status == FG_STATUS_OK)
-      status = fg__descent_go_down(descent, in->count,
-                                   way ? way->ratio : fg__place_chain_ratio);
+      status =
+          fg__descent_go_down(descent, in->count, by ? by->ratio : fg__place_chain_ratio);
   }
   return status == FG_STATUS_OK ? fg__descent_refine(descent) : status;
 }
 
 /* Of equally good ones the first is the better, whichever thread made it. */
-static bool is_better(double badness, int number, const competitor *than)
+static bool is_better(double criterion, int number, const worker *than)
 {
-  return !than->search || badness < than->badness ||
-         (badness <= than->badness && number < than->number);
+  return !than->search || criterion < than->criterion ||
+         (criterion <= than->criterion && number < than->number);
 }
 
 /* Makes a placement, and keeps it if it is the best so far. */
-static fg_status compete(competitor *own, int number)
+static fg_status make_and_compare(worker *own, int number)
 {
-  contest *in = own->in;
-  double badness = HUGE_VAL;
+  multistart *in = own->in;
+  double criterion = HUGE_VAL;
   fg__place_descent descent = *in->from;
   descent.context = own->context;
   descent.search = NULL;
   fg_status status = make(&descent, in, number);
   if (status == FG_STATUS_OK)
-    status = judge(descent.search, &badness);
+    status = judge(descent.search, &criterion);
   if (status == FG_STATUS_OK && number == 0)
     in->fitting = descent.search->count;
   if (status == FG_STATUS_OK && descent.search->count >= in->count &&
-      is_better(badness, number, own)) {
+      is_better(criterion, number, own)) {
     fg__place_search *before = own->search;
     own->search = descent.search;
     own->number = number;
-    own->badness = badness;
+    own->criterion = criterion;
     descent.search = before;
   }
   fg__descent_clear(&descent);
   return status;
 }
 
-static void compete_in_turn(void *argument, const fg__thread *thread)
+static void work(void *argument, const fg__thread *thread)
 {
-  competitor *own = (competitor *)argument + thread->index;
+  worker *own = (worker *)argument + thread->index;
   int number;
   while (own->status == FG_STATUS_OK &&
          (number = atomic_fetch_add(&own->in->begun, 1)) < own->in->placements)
-    own->status = compete(own, number);
+    own->status = make_and_compare(own, number);
 }
 
 /* The descent goes on with the best of all; the first failure counts. */
-static fg_status take_best(fg__place_descent *descent, competitor *all, int count,
-                           const contest *in)
+static fg_status take_best(fg__place_descent *descent, worker *all, int count,
+                           const multistart *in)
 {
-  competitor *best = &all[0];
+  worker *best = &all[0];
   for (int n = 0; n < count; ++n) {
     if (all[n].status != FG_STATUS_OK)
       return fg__fail(descent->context, all[n].status, "%s",
                       fg_context_message(all[n].context));
-    if (all[n].search && is_better(all[n].badness, all[n].number, best))
+    if (all[n].search && is_better(all[n].criterion, all[n].number, best))
       best = &all[n];
   }
   if (in->fitting < in->count || !best->search)
@@ -152,21 +152,23 @@ static fg_status take_best(fg__place_descent *descent, competitor *all, int coun
   return FG_STATUS_OK;
 }
 
-static fg_status hold(contest *in, fg__place_descent *descent, int thread_count)
+static fg_status share_out(multistart *in, fg__place_descent *descent, int thread_count)
 {
   fg__threads *threads = NULL;
-  competitor *all = fg__allocate((size_t)thread_count, sizeof *all);
+  worker *all = fg__allocate((size_t)thread_count, sizeof *all);
   if (!all)
     return fg__fail_memory(descent->context, "placements",
                            (size_t)thread_count * sizeof *all);
-  fg_status status = fg__threads_create(&threads, descent->context, thread_count);
+  /* where no thread is to be had the caller makes all of them */
+  fg__threads_create(&threads, NULL, thread_count);
   const int count = fg__threads_count(threads);
+  fg_status status = FG_STATUS_OK;
   for (int n = 0; n < count && status == FG_STATUS_OK; ++n) {
     all[n].in = in;
     status = fg__context_create_beside(&all[n].context, descent->context);
   }
   if (status == FG_STATUS_OK) {
-    fg__threads_run(threads, compete_in_turn, all);
+    fg__threads_run(threads, work, all);
     status = take_best(descent, all, count, in);
   }
   fg__threads_destroy(threads);
@@ -184,7 +186,8 @@ static int count_others(const fg__place_descent *descent, int count, bool is_fir
 {
   const fg_placement_options *options = descent->options;
   const int few = options->lengths == FG_LENGTHS_FAIR ? FEW_FAIR : FEW_FREE;
-  int others = is_first ? TRIED[options->effort].first : TRIED[options->effort].coarser;
+  int others =
+      is_first ? RESTARTS[options->effort].first : RESTARTS[options->effort].coarser;
   if (options->effort != FG_EFFORT_THOROUGH &&
       (descent->domain->dimension != 2 || count > few))
     return 0;
@@ -196,12 +199,22 @@ static int count_others(const fg__place_descent *descent, int count, bool is_fir
   return others;
 }
 
+/* Ranks have their own work beside that of the one that places. */
+static int count_threads(const fg__place_descent *descent)
+{
+  int rank, ranks;
+  fg_ranks(descent->context, &rank, &ranks);
+  return descent->options->threads > 0 ? descent->options->threads
+         : ranks > 1                   ? 1
+                                       : fg__threads_available();
+}
+
 /* Makes a single placement, of a coarser scale from the present icons. */
 static fg_status place_alone(fg__place_descent *descent, int count,
                              const fg_icons *clusters, bool is_first)
 {
   fg_status status =
-      is_first ? fg__descent_first(descent, count, clusters, &fg__place_first_way)
+      is_first ? fg__descent_first(descent, count, clusters, &fg__place_first_schedule)
                : fg__descent_go_down(descent, count, fg__place_chain_ratio);
   if (status == FG_STATUS_OK)
     status = fg__descent_refine(descent);
@@ -216,20 +229,19 @@ fg_status fg__place_best(fg__place_descent *descent, int count, const fg_icons *
   const int others = count_others(descent, count, is_first);
   if (others == 0)
     return place_alone(descent, count, clusters, is_first);
-  contest in = {.from = descent,
-                .clusters = clusters,
-                .count = count,
-                .placements = 1 + others,
-                .is_first = is_first};
+  multistart in = {.from = descent,
+                   .clusters = clusters,
+                   .count = count,
+                   .placements = 1 + others,
+                   .is_first = is_first};
   fg_status status = FG_STATUS_OK;
   if (!is_first) {
     in.next_identity = descent->search->next_identity;
     status = fg__place_remember(&in.finer, descent->search);
   }
-  const int wanted = descent->options->threads;
-  const int threads = wanted > 0 ? wanted : fg__threads_available();
+  const int threads = count_threads(descent);
   if (status == FG_STATUS_OK)
-    status = hold(&in, descent, threads < in.placements ? threads : in.placements);
+    status = share_out(&in, descent, threads < in.placements ? threads : in.placements);
   fg__place_snapshot_clear(&in.finer);
   return status;
 }

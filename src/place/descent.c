@@ -35,7 +35,7 @@ enum { SETTLING = 3 };
 const double fg__place_chain_ratio = 0.8;
 static const double CHAIN_STEP = 0.1; /* in lambda */
 
-const fg__place_way fg__place_first_way = {0.8, 1.25};
+const fg__place_schedule fg__place_first_schedule = {0.8, 1.25};
 
 /* The most ink of a free placement (fg__place_ink); its penalty grows until that holds.
  */
@@ -212,14 +212,13 @@ fg_status fg__descent_go_down(fg__place_descent *descent, int count, double rati
 }
 
 fg_status fg__descent_first(fg__place_descent *descent, int count,
-                            const fg_icons *clusters, const fg__place_way *way)
+                            const fg_icons *clusters, const fg__place_schedule *by)
 {
-  const int more = (int)fmin(way->start * count, fg__descent_most(descent->domain));
+  const int more = (int)fmin(by->start * count, fg__descent_most(descent->domain));
   fg_status status = start(descent, more > count ? more : count, clusters);
   if (status == FG_STATUS_OK)
     status = relax_to_count(descent->search);
-  return status == FG_STATUS_OK ? fg__descent_go_down(descent, count, way->ratio)
-                                : status;
+  return status == FG_STATUS_OK ? fg__descent_go_down(descent, count, by->ratio) : status;
 }
 
 fg_status fg__descent_near(fg__place_descent *descent, int count, const fg_icons *icons)

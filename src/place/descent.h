@@ -16,15 +16,15 @@ typedef struct fg__place_descent {
   fg__place_search *search; /* NULL: none has begun */
 } fg__place_descent;
 
-/* The way from many icons to few. */
-typedef struct fg__place_way {
+/* How a placement comes from many icons to few. */
+typedef struct fg__place_schedule {
   double ratio; /* of the numbers of icons in a chain of scales */
   double start; /* of a first scale: icons where the chain begins, as a multiple of those
                    wanted */
-} fg__place_way;
+} fg__place_schedule;
 
 /* That of a first scale, and the ratio of a coarser one's chain. */
-extern const fg__place_way fg__place_first_way;
+extern const fg__place_schedule fg__place_first_schedule;
 extern const double fg__place_chain_ratio;
 
 /* The most icons that are placed; more would be far smaller than the samples resolve. */
@@ -50,7 +50,7 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count);
  * more icons, as far as the field may have room for them, of which those stay that tell
  * most. ARGUMENT, MEMORY, STOPPED. */
 fg_status fg__descent_first(fg__place_descent *descent, int count,
-                            const fg_icons *clusters, const fg__place_way *way);
+                            const fg_icons *clusters, const fg__place_schedule *by);
 
 /* Places icons near those of another placement. ARGUMENT, MEMORY, STOPPED. */
 fg_status fg__descent_near(fg__place_descent *descent, int count, const fg_icons *icons);

@@ -15,7 +15,8 @@ struct fg_placement {
 
 const fg__place_search *fg__placement_search(const fg_placement *placement)
 {
-  return placement->now.search;
+  static const fg__place_search none = {.count = 0};
+  return placement->now.search ? placement->now.search : &none;
 }
 
 fg_context *fg__placement_context(const fg_placement *placement)
@@ -41,6 +42,9 @@ fg_status fg_placement_create(fg_placement **out, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "placement: effort %d or lengths %d is not known",
                     (int)options->effort, (int)options->lengths);
+  if (options && options->threads < 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "placement: %d threads",
+                    options->threads);
   fg_placement *placement = fg__allocate(1, sizeof *placement);
   if (!placement)
     return fg__fail_memory(context, "a placement", sizeof *placement);
@@ -130,7 +134,7 @@ static bool are_placed(const fg_icons *icons)
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
   fg__place_descent *now = &placement->now;
-  fg_status status = fg__descent_first(now, count, NULL, &fg__place_first_way);
+  fg_status status = fg__descent_first(now, count, NULL, &fg__place_first_schedule);
   return status == FG_STATUS_OK ? fg__descent_refine(now) : status;
 }
 

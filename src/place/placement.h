@@ -16,7 +16,7 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count);
 fg_status fg__placement_resume(fg_placement *placement, const fg_icons *icons,
                                int *missing);
 
-/* Its icons, borrowed; NULL: none yet. */
+/* Its icons, borrowed; none before the first scale. */
 const fg__place_search *fg__placement_search(const fg_placement *placement);
 
 #endif

@@ -2,6 +2,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "file/number_text.h"
+#include "read/axis_units.h"
 #include "read/time_words.h"
 
 #include <ctype.h>
@@ -42,44 +43,6 @@ typedef struct value_axis {
   const fg_axis_value *values;
   int count;
 } value_axis;
-
-/* A unit: the quantity it measures, and its size in the base unit of that quantity. */
-typedef struct known_unit {
-  const char *name;
-  int measure;
-  double factor;
-} known_unit;
-
-/* The unit of a name, perhaps in the plural; NULL where it is not known. */
-static const known_unit *find_unit(const char *name)
-{
-  static const known_unit known[] = {
-      {"Pa", 1, 1.0},         {"hPa", 1, 100.0},   {"mb", 1, 100.0},   {"mbar", 1, 100.0},
-      {"millibar", 1, 100.0}, {"kPa", 1, 1000.0},  {"dbar", 1, 1e4},   {"bar", 1, 1e5},
-      {"m", 2, 1.0},          {"meter", 2, 1.0},   {"metre", 2, 1.0},  {"km", 2, 1000.0},
-      {"dm", 2, 0.1},         {"cm", 2, 0.01},     {"mm", 2, 0.001},   {"ft", 2, 0.3048},
-      {"s", 3, 1.0},          {"sec", 3, 1.0},     {"second", 3, 1.0}, {"ms", 3, 0.001},
-      {"min", 3, 60.0},       {"minute", 3, 60.0}, {"h", 3, 3600.0},   {"hr", 3, 3600.0},
-      {"hour", 3, 3600.0},    {"d", 3, 86400.0},   {"day", 3, 86400.0}};
-  for (size_t k = 0; k < sizeof known / sizeof *known; ++k) {
-    const size_t length = strlen(known[k].name);
-    if (strncasecmp(known[k].name, name, length) != 0)
-      continue;
-    if (!name[length] || (length > 2 && strcasecmp(name + length, "s") == 0))
-      return &known[k];
-  }
-  return NULL;
-}
-
-/* The factor from one unit to the other; 0: they measure different things. */
-static double unit_factor(const char *from, const char *to)
-{
-  if (!from[0] || strcasecmp(from, to) == 0)
-    return 1.0;
-  const known_unit *one = find_unit(from), *other = find_unit(to);
-  return one && other && one->measure == other->measure ? one->factor / other->factor
-                                                        : 0.0;
-}
 
 /* A number with a unit, a point or an exponent. */
 static bool read_value(item *out, const char *text)
@@ -135,6 +98,19 @@ static bool read_item(item *out, const char *text)
   return out->kind != ITEM_NONE;
 }
 
+static bool has_four_digits(const item *w)
+{
+  return w->kind == ITEM_INDEX && strlen(w->text) == 4;
+}
+
+/* Whether two ends make a range; a year may stand beside a date. */
+static bool are_alike(const item *a, const item *b)
+{
+  return !a->kind || !b->kind || a->kind == b->kind ||
+         (has_four_digits(a) && b->kind == ITEM_DATE) ||
+         (has_four_digits(b) && a->kind == ITEM_DATE);
+}
+
 /* Parts "A:B" or "A/B" where both ends can be read and are of one kind; a colon may also
  * be a time of day's. */
 static bool read_range(item ends[2], const char *text)
@@ -144,8 +120,7 @@ static bool read_range(item ends[2], const char *text)
     snprintf(first, sizeof first, "%.*s", (int)(at - text), text);
     if (read_item(&ends[0], first) && read_item(&ends[1], at + 1) &&
         (ends[0].kind || ends[1].kind) && ends[0].kind != ITEM_WORDS &&
-        ends[1].kind != ITEM_WORDS &&
-        (!ends[0].kind || !ends[1].kind || ends[0].kind == ends[1].kind))
+        ends[1].kind != ITEM_WORDS && are_alike(&ends[0], &ends[1]))
       return true;
   }
   return false;
@@ -195,7 +170,7 @@ static double place_of(const value_axis *axis, const item *w, int n)
   if (w->kind == ITEM_DATE)
     return fg__period_read_start(&period, axis->values[n].words) ? period.seconds
                                                                  : (double)NAN;
-  const double factor = unit_factor(w->unit, axis->values[n].units);
+  const double factor = fg__unit_factor(w->unit, axis->values[n].units);
   return factor > 0.0 ? axis->values[n].value / factor : (double)NAN;
 }
 
@@ -307,16 +282,23 @@ static int index_of_value(const value_axis *axis, int number)
   return -1;
 }
 
-/* Of dates a whole number of four digits beyond the last index is a year. */
-static void take_as_year(item *w, const value_axis *axis)
+/* Of dates a whole number of four digits is a year where it is beyond the last index or
+ * the other end of its range is a year or a date. */
+static void take_as_years(item *w, int count, const value_axis *axis)
 {
   fg__period ignored;
-  if (w->kind != ITEM_INDEX || w->index < axis->count || strlen(w->text) != 4 ||
-      index_of_value(axis, w->index) >= 0 || !axis->values ||
+  bool years = false;
+  if (!axis->values || axis->count < 1 ||
       !fg__period_read_start(&ignored, axis->values[0].words))
     return;
-  w->kind = ITEM_DATE;
-  w->period = fg__period_of_year(w->index);
+  for (int k = 0; k < count; ++k)
+    years = years || w[k].kind == ITEM_DATE ||
+            (has_four_digits(&w[k]) && w[k].index >= axis->count);
+  for (int k = 0; k < count && years; ++k)
+    if (has_four_digits(&w[k])) {
+      w[k].kind = ITEM_DATE;
+      w[k].period = fg__period_of_year(w[k].index);
+    }
 }
 
 static fg_status choose_one(bool *chosen, bool *nearest, const value_axis *axis,
@@ -422,14 +404,14 @@ static fg_status choose_item(fg_selection *out, bool *chosen, const value_axis *
     return FG_STATUS_OK;
   }
   if (*text && read_item(&one, text)) {
-    take_as_year(&one, axis);
+    take_as_years(&one, 1, axis);
     return axis->count ? choose_one(chosen, &out->nearest, axis, &one) : FG_STATUS_OK;
   }
   if (!read_range(ends, text))
     return fail_spelling(axis, text);
-  for (int k = 0; k < 2 && (ends[0].kind == ITEM_INDEX || ends[1].kind == ITEM_INDEX);
-       ++k)
-    take_as_year(&ends[k], axis);
+  take_as_years(ends, 2, axis);
+  if (axis->count && ends[0].kind && ends[1].kind && ends[0].kind != ends[1].kind)
+    return fail_spelling(axis, text);
   if (is_descending(ends))
     return fg__fail(axis->context, FG_STATUS_ARGUMENT, "'%s' ends before it begins",
                     text);

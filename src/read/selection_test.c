@@ -100,8 +100,17 @@ static void years(void **state)
                                          {"3", "3"},
                                          {"1982:1983", "+ 0 1 2"},
                                          {"1983:", "+ 2 3"},
-                                         {"1985,0", "+ 0 3"}};
+                                         {"1985,0", "+ 0 3"},
+                                         {"1982:1983-01", "+ 0 1 2"},
+                                         {"1982-02:1983", "+ 1 2"}};
   (void)state;
+  /* day 1978 of the axis is one of its values, and another year's */
+  static const fg_axis_value days[] = {{0.0, "days since 1975-01-01", "1975-01-01"},
+                                       {1096.0, "days since 1975-01-01", "1978-01-01"},
+                                       {1978.0, "days since 1975-01-01", "1980-06-01"}};
+  static const expectation of_days[] = {
+      {"1978", "1"}, {"1975:1978", "+ 0 1"}, {"1978.", "2"}, {"1", "1"}};
+  expect(of_days, sizeof of_days / sizeof *of_days, "time", days, 3);
   expect(expected, sizeof expected / sizeof *expected, "time", yearly, 4);
 }
 

@@ -96,8 +96,9 @@ bool fg__period_read(fg__period *out, const char *text)
 
 fg__period fg__period_of_year(int year)
 {
-  return (fg__period){.key = 372.0 * year * DAY_SECONDS,
-                      .end_key = 372.0 * (year + 1.0) * DAY_SECONDS,
+  const double length = 12.0 * 31.0 * DAY_SECONDS; /* as read_period counts months */
+  return (fg__period){.key = year * length,
+                      .end_key = (year + 1.0) * length,
                       .seconds = (double)fg__day_number(year, 1, 1) * DAY_SECONDS};
 }
 

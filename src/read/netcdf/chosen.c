@@ -1,9 +1,10 @@
-/* Samples of dimensions that are neither in space, time nor level: one member of an
- * ensemble. */
+/* Single samples of dimensions, as of one that is neither time nor level: one member of
+ * an ensemble. */
 #include "base/memory.h"
 #include "flowgrain/inventory.h"
 #include "read/netcdf/netcdf.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,37 +12,65 @@
 /* A file of a few bytes may declare a dimension of 2^31 samples. */
 enum { MOST_SAMPLES = 1000000 };
 
-/* The coordinate of a dimension, or NULL. */
+/* The coordinate of a dimension, or its dates as text, or NULL. */
 static const fg__nc_variable *coordinate_of(const fg__nc_file *file, int dimension)
 {
   const fg__nc_variable along = {.rank = 1, .dimension = {dimension}};
-  return fg__nc_coordinate(file, &along, 0);
+  const fg__nc_variable *coordinate = fg__nc_coordinate(file, &along, 0);
+  return coordinate ? coordinate : fg__nc_date_texts(file, dimension);
 }
 
-static fg_status fail_not_one(const fg__nc_file *file, const char *name,
-                              const char *which, int count)
+static const char *path_of(const fg__nc_file *file, const fg__nc_dimension *d)
 {
-  return fg__fail(file->context, FG_STATUS_ARGUMENT,
-                  "%s: '%.100s=%.100s' are %d samples, and one is read at a time",
-                  file->paths[0], name, which, count);
+  int n = 0;
+  while (n < file->root_count - 1 && file->roots[n] != d->root)
+    ++n;
+  return file->paths[n];
 }
 
-/* Which sample is meant; what is wrong is said of the file. */
-static fg_status select_sample(fg_selection *out, const fg__nc_file *file,
+/* The sample whose value is a whole number, as expver = 5; -1: none. */
+static int find_value(const fg_axis_value *values, size_t count, const char *which)
+{
+  const size_t digits = strspn(which, "0123456789");
+  for (size_t n = 0; values && digits > 0 && !which[digits] && n < count; ++n)
+    if (fabs(values[n].value - strtod(which, NULL)) <= 0.0)
+      return (int)n;
+  return -1;
+}
+
+/* Which sample is meant: a value or name that is there, else an index. What is wrong is
+ * said of the file. */
+static fg_status select_sample(size_t *out, const fg__nc_file *file,
                                const fg__nc_dimension *d, const char *which,
                                const fg_axis_value *values)
 {
   fg_context *own = NULL;
+  fg_selection found = {0};
+  const int value = find_value(values, d->length, which);
+  if (value >= 0) {
+    *out = (size_t)value;
+    return FG_STATUS_OK;
+  }
   fg_status status = fg_context_create(&own);
   if (status == FG_STATUS_OK)
-    status = fg_selection_find(out, own, d->name, which, values, (int)d->length);
+    status = fg_selection_find(&found, own, d->name, which, values, (int)d->length);
   if (status != FG_STATUS_OK) {
-    fg__fail(file->context, status, "%s: %s", file->paths[0], fg_context_message(own));
+    fg__fail(file->context, status, "%s: %s", path_of(file, d), fg_context_message(own));
     fg__hint(file->context,
-             "a whole number is an index, from 0; a value has a point or its unit");
-  } else if (out->count != 1) {
-    status = fail_not_one(file, d->name, which, out->count);
+             "a whole number is a value, or else an index, from 0; another value has a "
+             "point or its unit");
+  } else if (found.count != 1) {
+    status = fg__fail(file->context, FG_STATUS_ARGUMENT,
+                      "%s: '%.100s=%.100s' are %d samples, and one is read at a time",
+                      path_of(file, d), d->name, which, found.count);
+  } else if (found.nearest) {
+    status = fg__fail(file->context, FG_STATUS_ARGUMENT,
+                      "%s: '%.100s=%.100s' is not there; the nearest is %s",
+                      path_of(file, d), d->name, which, values[found.index[0]].words);
+  } else {
+    *out = (size_t)found.index[0];
   }
+  fg_selection_clear(&found);
   fg_context_destroy(own);
   return status;
 }
@@ -52,11 +81,11 @@ static fg_status choose_sample(fg__nc_file *file, int dimension, const char *whi
   fg__nc_dimension *d = &file->dimensions[dimension];
   fg_axis_value *values = NULL;
   char *text = NULL;
-  fg_selection selection = {0};
-  if (d->length > MOST_SAMPLES)
+  if (d->length == 0 || d->length > MOST_SAMPLES)
     return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-                    "%s: '%.100s' has %zu samples; one can be chosen of %d at most",
-                    file->paths[0], d->name, d->length, MOST_SAMPLES);
+                    d->length ? "%s: '%.100s' has %zu samples; one can be chosen of %d"
+                              : "%s: dimension '%.100s' is empty",
+                    path_of(file, d), d->name, d->length, MOST_SAMPLES);
   fg_status status =
       fg__nc_axis_values(&values, &text, file, coordinate_of(file, dimension), d->length);
   if (status == FG_STATUS_OK && !values) {
@@ -64,13 +93,11 @@ static fg_status choose_sample(fg__nc_file *file, int dimension, const char *whi
     status = fg__nc_labels(&values, &text, file, dimension);
   }
   if (status == FG_STATUS_OK)
-    status = select_sample(&selection, file, d, which, values);
+    status = select_sample(&d->chosen, file, d, which, values);
   if (status == FG_STATUS_OK) {
-    d->chosen = (size_t)selection.index[0];
     d->is_chosen = true;
     d->length = 1;
   }
-  fg_selection_clear(&selection);
   free(values);
   free(text);
   return status;
@@ -89,7 +116,8 @@ static void list_dimensions(char *out, size_t size, const fg__nc_file *file)
   }
 }
 
-/* The same of all dimensions of a name: each group and file may have its own. */
+/* The same of all dimensions of a name: each group and file may have its own, and one of
+ * a single sample beside them has that for all. */
 static fg_status choose_named(fg__nc_file *file, const char *name, const char *which)
 {
   char known[1024];
@@ -102,6 +130,8 @@ static fg_status choose_named(fg__nc_file *file, const char *name, const char *w
       is_given = true;
       continue;
     }
+    if (d->length == 1 && d->root != file->roots[0])
+      continue;
     const fg_status status = choose_sample(file, (int)i, which);
     if (status != FG_STATUS_OK)
       return status;
@@ -140,6 +170,7 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
     status = choose_named(file, one + strspn(one, " "), equals + 1);
     one = comma ? comma + 1 : NULL;
   }
+  memset(file->was_read, 0, sizeof file->was_read);
   free(copy);
   return status;
 }
@@ -162,13 +193,14 @@ static fg_status write_words(char *out, size_t size, const fg__nc_file *file,
 }
 
 fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
-                              char *words, size_t size)
+                              bool of_time, char *words, size_t size)
 {
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < variable->rank && status == FG_STATUS_OK; ++k) {
     const size_t used = strlen(words);
     const char *between = used ? ", " : "";
     if (!file->dimensions[variable->dimension[k]].is_chosen ||
+        fg__nc_is_time(file, variable, k) != of_time ||
         used + strlen(between) + 1 >= size)
       continue;
     strcpy(words + used, between);

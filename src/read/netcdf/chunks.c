@@ -237,6 +237,7 @@ int fg__nc_fetch(const fg__nc_variable *v, const size_t *start, const size_t *co
     first[v->rank] = (size_t)v->element - 1;
     counts[v->rank] = 1;
   }
+  v->owner->was_read[v->file] = true;
   const int error = fg__nc_check_chunks(v, first, counts);
   return error ? error : nc_get_vara_double(v->group, v->id, first, counts, out);
 }

@@ -62,10 +62,12 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
   const size_t n = file->dimensions[a->dimension[k]].length;
   const fg__nc_variable *of_a = fg__nc_coordinate(file, a, k);
   const fg__nc_variable *of_b = fg__nc_coordinate(file, b, k);
+  /* where a third file has the positions, they are found by the dimensions' names */
+  const bool by_name = file->root_count > file->component_files;
   if (!of_a || !of_b)
     return !of_a && !of_b && a->file != b->file &&
-           strcmp(file->dimensions[a->dimension[k]].name,
-                  file->dimensions[b->dimension[k]].name) == 0;
+           (!by_name || strcmp(file->dimensions[a->dimension[k]].name,
+                               file->dimensions[b->dimension[k]].name) == 0);
   return fits_file(file, of_a, n) && fits_file(file, of_b, n) &&
          same_numbers(of_a, of_b, n);
 }

@@ -56,15 +56,16 @@ static fg_status check_used(const fg__nc_file *file, int number, const fg__nc_pa
                             const fg__nc_grid *grid, const char *mask)
 {
   const fg__nc_variable *masked = mask ? fg__nc_find(file, mask) : NULL;
+  const bool mesh = number >= file->component_files;
   bool used =
-      (masked && masked->file == number) ||
+      (masked && masked->file == number) || (mesh && file->was_read[number]) ||
       (grid->mesh && uses_file(grid->mesh, number)) ||
       (grid->unstructured && fg__nc_unstructured_file(grid->unstructured) == number);
-  for (int k = 0; k < 3; ++k)
-    used = used || (pair->component[k] && pair->component[k]->file == number);
+  for (int k = 0; k < 2; ++k)
+    used = used || pair->component[k]->file == number;
+  used = used || (pair->component[2] && pair->component[2]->file == number);
   if (used)
     return FG_STATUS_OK;
-  const bool mesh = number >= file->component_files;
   fg__fail(file->context, FG_STATUS_ARGUMENT,
            mesh ? "%s: gives no position: '%.200s' and '%.200s' lie on the grid of %s"
                 : "%s: gives no component: '%.200s' and '%.200s' are both of %s",

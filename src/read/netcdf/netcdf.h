@@ -82,7 +82,8 @@ typedef struct fg__nc_file {
   size_t sizes[FG__NC_FILES]; /* bytes */
   fg__nc_storage storage[FG__NC_FILES];
   int root_count;
-  int component_files; /* so many of them, from the first, may hold components */
+  int component_files;         /* so many of them, from the first, may hold components */
+  bool was_read[FG__NC_FILES]; /* numbers of it, since samples were chosen */
   fg__nc_dimension *dimensions;
   size_t dimension_count, dimension_capacity;
   fg__nc_variable *variables;
@@ -100,9 +101,10 @@ void fg__nc_file_close(fg__nc_file *file);
  * ones of that sample alone. ARGUMENT, UNSUPPORTED, MEMORY. */
 fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text);
 
-/* Adds to `words` those of the samples that are chosen of a variable's dimensions. */
+/* Adds to `words` those of the samples that are chosen of a variable's dimensions: of
+ * time, or of all others. */
 fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
-                              char *words, size_t size);
+                              bool of_time, char *words, size_t size);
 
 /* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
  * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
@@ -122,13 +124,15 @@ fg_status fg__nc_fail(fg_context *context, const char *path, const char *what, i
 const fg__nc_variable *fg__nc_find(const fg__nc_file *file, const char *name);
 
 /* Reads numbers of a variable as nc_get_vara_double does, and one as nc_get_var1_double,
- * but no chunk that would become far larger in memory than the file says (NC_EFILTER, and
- * a message). */
+ * but indices along a dimension with a chosen sample count from that, and no chunk is
+ * read that would become far larger in memory than the file says (NC_EFILTER, and a
+ * message).
+ */
 int fg__nc_fetch(const fg__nc_variable *variable, const size_t *start,
                  const size_t *count, double *out);
 int fg__nc_fetch_one(const fg__nc_variable *variable, const size_t *index, double *out);
 
-/* Only checks the chunks of that part. */
+/* Only checks the chunks of a part; indices are the file's. */
 int fg__nc_check_chunks(const fg__nc_variable *variable, const size_t *start,
                         const size_t *count);
 
@@ -211,6 +215,9 @@ fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate);
 /* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
                                          const fg__nc_variable *variable, int k);
+
+/* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
+bool fg__nc_is_time(const fg__nc_file *file, const fg__nc_variable *variable, int k);
 
 /* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
 bool fg__nc_counts(const fg__nc_variable *coordinate);

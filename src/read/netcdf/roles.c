@@ -170,10 +170,14 @@ bool fg__nc_counts(const fg__nc_variable *coordinate)
   return fg__nc_units(text, label, sizeof label) == FG__NC_UNKNOWN;
 }
 
-static bool lies_along(const fg__nc_variable *v, int dimension)
+/* The dimension of a file with positions may be another of that name. */
+static bool lies_along(const fg__nc_file *file, const fg__nc_variable *v, int dimension)
 {
-  return v->rank == 1 && v->dimension[0] == dimension && v->type >= NC_BYTE &&
-         v->type <= NC_UINT64 && v->type != NC_CHAR;
+  return v->rank == 1 && v->type >= NC_BYTE && v->type <= NC_UINT64 &&
+         v->type != NC_CHAR &&
+         (v->dimension[0] == dimension ||
+          (v->file >= file->component_files &&
+           fg__nc_alike_dimension(file, v->dimension[0], dimension)));
 }
 
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
@@ -183,7 +187,7 @@ const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
   const fg__nc_variable *otherwise = NULL;
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    if (!lies_along(v, dimension))
+    if (!lies_along(file, v, dimension))
       continue;
     if (strcmp(v->plain_name, file->dimensions[dimension].name) == 0)
       return v;
@@ -211,6 +215,22 @@ static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, 
   if (c.role == FG__NC_NO_ROLE && coordinate)
     c.role = role_of_name(coordinate->plain_name);
   return c;
+}
+
+/* A dimension of which one sample is chosen is neither time nor level any more. */
+static claim open_claim_of(const fg__nc_file *file, const fg__nc_variable *variable,
+                           int k)
+{
+  claim c = claim_of(file, variable, k);
+  if (file->dimensions[variable->dimension[k]].is_chosen &&
+      (c.role == FG__NC_TIME || c.role == FG__NC_LEVEL))
+    c.role = FG__NC_NO_ROLE;
+  return c;
+}
+
+bool fg__nc_is_time(const fg__nc_file *file, const fg__nc_variable *variable, int k)
+{
+  return claim_of(file, variable, k).role == FG__NC_TIME;
 }
 
 /* Where several dimensions claim a role, x and y go to the last, time and level to the
@@ -254,7 +274,7 @@ static int assign_others(int position[FG__NC_ROLES], const fg__nc_file *file,
 {
   for (int k = 0; k < variable->rank; ++k) {
     const fg__nc_dimension *d = &file->dimensions[variable->dimension[k]];
-    if (is_taken(position, k))
+    if (is_taken(position, k) || d->is_chosen)
       continue;
     if (position[FG__NC_TIME] < 0 && d->unlimited)
       position[FG__NC_TIME] = k;
@@ -273,7 +293,7 @@ int fg__nc_roles(int position[FG__NC_ROLES], const fg__nc_file *file,
 {
   claim claims[FG__NC_RANK];
   for (int k = 0; k < variable->rank; ++k)
-    claims[k] = claim_of(file, variable, k);
+    claims[k] = open_claim_of(file, variable, k);
   assign_claims(position, claims, variable->rank);
   for (int role = FG__NC_X; role <= FG__NC_Y; ++role)
     if (position[role] < 0)
@@ -289,7 +309,7 @@ int fg__nc_roles_beside(int position[FG__NC_ROLES], const fg__nc_file *file,
 {
   claim claims[FG__NC_RANK];
   for (int k = 0; k < variable->rank; ++k) {
-    claims[k] = claim_of(file, variable, k);
+    claims[k] = open_claim_of(file, variable, k);
     if (k == along || claims[k].role == FG__NC_X || claims[k].role == FG__NC_Y)
       claims[k].role = FG__NC_NO_ROLE;
   }

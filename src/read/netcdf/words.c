@@ -285,11 +285,6 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
   return status;
 }
 
-static bool is_chosen(const fg__nc_file *file, const fg__nc_variable *v, int position)
-{
-  return file->dimensions[v->dimension[position]].is_chosen;
-}
-
 fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
                             const fg_read_options *options)
@@ -297,15 +292,18 @@ fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
   char text[FG__NC_TEXT];
   fg_status status = FG_STATUS_OK;
   *out = (fg__nc_words){{0}, {0}, {0}, {0}};
-  if (grid->time >= 0 && !is_chosen(file, pair->component[0], grid->time))
+  if (grid->time >= 0)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, out->time, sizeof out->time);
-  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK &&
-      !is_chosen(file, pair->component[0], grid->level))
+  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
                                 (size_t)options->level, out->level, sizeof out->level);
   if (status == FG_STATUS_OK)
-    status = fg__nc_chosen_words(file, pair->component[0], out->level, sizeof out->level);
+    status =
+        fg__nc_chosen_words(file, pair->component[0], true, out->time, sizeof out->time);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_chosen_words(file, pair->component[0], false, out->level,
+                                 sizeof out->level);
   if (status != FG_STATUS_OK)
     return status;
   fg__nc_title(pair, grid->dimension, out->title, sizeof out->title);
