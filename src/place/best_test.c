@@ -2,6 +2,8 @@
 
 #include "place/placed_test.h"
 
+#include <limits.h>
+
 /* Icons of one scale after another, by so many threads. */
 static void place_scales(fg_icons *out[2], fg_context *context, const fg_field *field,
                          const int counts[2], fg_effort effort, int threads)
@@ -76,6 +78,24 @@ static void ids_go_on_from_the_best(void **state)
   fg_field_destroy(field);
 }
 
+/* After a refusal there are no icons, and none crashes. */
+static void nothing_placed_is_no_icon(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, coast);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_NORMAL);
+  fg_icons *icons = NULL;
+  fg_density *regions = NULL;
+  assert_int_equal(fg_placement_place(placement, INT_MAX, NULL), FG_STATUS_ARGUMENT);
+  fg_context_clear(*state);
+  if (fg_placement_icons(&icons, placement) == FG_STATUS_OK)
+    assert_int_equal(fg_icons_count(icons), 0);
+  assert_int_not_equal(fg_placement_regions(&regions, placement), FG_STATUS_OK);
+  fg_context_clear(*state);
+  fg_icons_destroy(icons);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
 /* Threads stop with the context of the placement, which says so. */
 static void threads_stop(void **state)
 {
@@ -98,6 +118,7 @@ static void threads_stop(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {CASE(threads_place_alike),
-                                     CASE(ids_go_on_from_the_best), CASE(threads_stop)};
+                                     CASE(ids_go_on_from_the_best),
+                                     CASE(nothing_placed_is_no_icon), CASE(threads_stop)};
   return cmocka_run_group_tests_name("place/best", tests, NULL, NULL);
 }

@@ -66,6 +66,95 @@ static void one_of_several_dimensions_is_read(void **state)
   }
 }
 
+/* A number that is a value is that one: of 1 and 5 the 5 is number 1, and 1 number 0;
+ * else it is an index. */
+static void values_go_before_indices(void **state)
+{
+  static const struct {
+    const char *at, *level;
+    float first;
+  } cases[] = {{"expver=1", "expver 1", 1.0f},
+               {"expver=5", "expver 5", 101.0f},
+               {"expver=0", "expver 1", 1.0f}};
+  static const double expver[] = {1.0, 5.0};
+  double values[2 * COUNT];
+  sample_file *f = *state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    sample_begin(f, 0);
+    const int all[3] = {sample_axis(f, "expver", 2, expver, NULL),
+                        sample_axis(f, "y", NY, Y, "km"),
+                        sample_axis(f, "x", NX, X, "km")};
+    for (int i = 0; i < 2 * COUNT; ++i)
+      values[i] = 100.0 * (i / COUNT) + i % COUNT + 1.0;
+    for (int k = 0; k < 2; ++k)
+      sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 3, all), values);
+    sample_end(f);
+    fg_field *field = read_with(f, &(fg_read_options){.at = cases[n].at});
+    assert_string_equal(fg_field_contents(field)->level, cases[n].level);
+    assert_true(fg_field_contents(field)->velocity[0][0] == cases[n].first);
+    fg_field_destroy(field);
+  }
+  refuse_with(f, &(fg_read_options){.at = "expver=1.2"}, FG_STATUS_ARGUMENT,
+              "'expver=1.2' is not there; the nearest is expver 1");
+}
+
+/* What is chosen leaves its part, as that of time, to another dimension: a record
+ * dimension, and one of time where there are two. */
+static void others_take_the_parts_of_what_is_chosen(void **state)
+{
+  static const char *const first[] = {"number", "time"};
+  double values[8 * COUNT];
+  sample_file *f = *state;
+  for (int n = 0; n < 2; ++n) {
+    sample_begin(f, NC_NETCDF4);
+    const int all[5] = {sample_dimension(f, first[n], NC_UNLIMITED),
+                        sample_dimension(f, n ? "step" : "aa", 2),
+                        sample_dimension(f, n ? "lev" : "bb", 2),
+                        sample_axis(f, "y", NY, Y, "km"),
+                        sample_axis(f, "x", NX, X, "km")};
+    const size_t start[5] = {0}, count[5] = {2, 2, 2, NY, NX};
+    for (int i = 0; i < 8 * COUNT; ++i)
+      values[i] = 100.0 * (i / COUNT) + i % COUNT + 1.0;
+    for (int k = 0; k < 2; ++k) {
+      const int id = sample_variable(f, k ? "v" : "u", NC_FLOAT, 5, all);
+      sample_write(f);
+      nc_must(nc_put_vara_double(f->id, id, start, count, values));
+    }
+    sample_end(f);
+    const char *at = n ? "time=1" : "number=1";
+    fg_field *field = read_with(f, &(fg_read_options){.at = at, .time = 1, .level = 0});
+    assert_true(fg_field_contents(field)->velocity[0][0] == (n ? 601.0f : 501.0f));
+    fg_field_destroy(field);
+  }
+}
+
+/* A further file's dimension of that name with a single sample has that for all. */
+static void a_mask_without_members_serves_all(void **state)
+{
+  sample_file *f = *state;
+  sample_file second = *f;
+  double sea[COUNT];
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  sample_begin(&second, 0);
+  const int all[3] = {sample_dimension(&second, "member", 1),
+                      sample_axis(&second, "y", NY, Y, "km"),
+                      sample_axis(&second, "x", NX, X, "km")};
+  for (int i = 0; i < COUNT; ++i)
+    sea[i] = i % 5 > 0;
+  sample_put(&second, sample_variable(&second, "sea", NC_FLOAT, 3, all), sea);
+  sample_end(&second);
+  make_ensemble(f, 0);
+  fg_field *field = read_with(f, &(fg_read_options){.at = "member=2,version=0",
+                                                    .vars = "u,v",
+                                                    .vars_from = second.path,
+                                                    .mask = "sea"});
+  assert_int_equal(fg_field_contents(field)->valid[5], 0);
+  assert_true(fg_field_contents(field)->velocity[0][1] ==
+              (float)(u_of(X[1], Y[0], 0, 0) + marked(2, 0)));
+  fg_field_destroy(field);
+  unlink(second.path);
+}
+
 /* A time can be chosen so, too, and is named. */
 static void any_dimension_can_be_chosen(void **state)
 {
@@ -188,6 +277,9 @@ int main(void)
       CASE(any_dimension_can_be_chosen),
       CASE(choices_are_checked),
       CASE(samples_have_labels),
+      CASE(values_go_before_indices),
+      CASE(others_take_the_parts_of_what_is_chosen),
+      CASE(a_mask_without_members_serves_all),
       CASE(other_formats_refuse_choices),
   };
   return cmocka_run_group_tests_name("read/netcdf/chosen", tests, NULL, NULL);

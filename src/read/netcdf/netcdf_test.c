@@ -4,20 +4,6 @@
 
 enum { NT = 3, NZ = 2 };
 
-static void assert_samples(const fg_field *field, int t, int z)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  for (int j = 0; j < a->size[1]; ++j)
-    for (int i = 0; i < a->size[0]; ++i) {
-      const double x = a->axis[0][i];
-      const double y = a->axis[1][j];
-      assert_true(fabs((double)a->velocity[0][j * a->size[0] + i] - u_of(x, y, t, z)) <
-                  1e-4);
-      assert_true(fabs((double)a->velocity[1][j * a->size[0] + i] - v_of(x, y, t, z)) <
-                  1e-4);
-    }
-}
-
 /* Fills the variables; the letters of `order` are the roles of the dimensions, as
  * "tzyx". */
 static void put_ordered(const sample_file *f, int u, int v, const char *order,
@@ -166,71 +152,6 @@ static void winds_on_the_sphere_are_recognised(void **state)
   assert_true(fg_field_tangent(field, (double[]){1.3, 60.0}, tangent));
   assert_true(fabs(tangent[0] - 3.0) < 1e-9);
   fg_field_destroy(field);
-}
-
-static void the_other_component_may_lie_in_a_second_file(void **state)
-{
-  sample_file *f = *state;
-  sample_file second = *f;
-  int id[2];
-  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
-  make_plain(&second, NC_NETCDF4, NC_FLOAT, id);
-  nc_must(nc_redef(second.id));
-  nc_must(nc_rename_var(second.id, id[0], "salt"));
-  sample_end(&second);
-  make_plain(f, 0, NC_FLOAT, id);
-  nc_must(nc_redef(f->id));
-  nc_must(nc_rename_var(f->id, id[1], "temperature"));
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "no vectors");
-  const char *const vars[] = {NULL, "u,v"};
-  for (int k = 0; k < 2; ++k) {
-    const fg_read_options options = {.vars = vars[k], .vars_from = second.path};
-    fg_field *field = read_with(f, &options);
-    assert_samples(field, 0, 0);
-    fg_field_destroy(field);
-  }
-  const fg_read_options nowhere = {.vars_from = "/nonexistent.nc"};
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &nowhere),
-                   FG_STATUS_FILE_ACCESS);
-  unlink(second.path);
-}
-
-static void a_second_file_is_of_use_or_refused(void **state)
-{
-  sample_file *f = *state;
-  sample_file second = *f;
-  double inside[COUNT];
-  int id[2];
-  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
-  sample_begin(&second, 0);
-  const int all[2] = {sample_axis(&second, "y", NY, Y, "km"),
-                      sample_axis(&second, "x", NX, X, "km")};
-  for (int i = 0; i < COUNT; ++i)
-    inside[i] = i % 5 > 0;
-  sample_put(&second, sample_variable(&second, "sea", NC_FLOAT, 2, all), inside);
-  sample_end(&second);
-  make_plain(f, 0, NC_FLOAT, id);
-  sample_end(f);
-  fg_read_options options = {.vars = "u,v", .vars_from = second.path};
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &options),
-                   FG_STATUS_ARGUMENT);
-  assert_null(field);
-  assert_non_null(strstr(fg_context_message(f->context), "second.nc: gives no comp"));
-  const fg_read_options twice = {.vars = "u,v", .vars_from = f->path};
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &twice),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(f->context), "sample.nc: is given twice"));
-  options.mask = "sea";
-  field = read_with(f, &options);
-  assert_int_equal(fg_field_contents(field)->valid[5], 0);
-  fg_field_destroy(field);
-  unlink(second.path);
 }
 
 static void groups_are_searched(void **state)
@@ -464,18 +385,11 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(every_kind_of_file_reads_the_same),
-      CASE(any_order_of_dimensions_is_read),
-      CASE(winds_on_the_sphere_are_recognised),
-      CASE(the_other_component_may_lie_in_a_second_file),
-      CASE(a_second_file_is_of_use_or_refused),
-      CASE(groups_are_searched),
-      CASE(only_possible_requests_are_met),
-      CASE(files_without_vectors_say_so),
-      CASE(inventories_tell_what_reading_gives),
-      CASE(inventories_tell_times_and_levels),
-      CASE(the_usual_level_is_the_seas_surface),
-      CASE(the_demonstration_file_is_read),
+      CASE(every_kind_of_file_reads_the_same),   CASE(any_order_of_dimensions_is_read),
+      CASE(winds_on_the_sphere_are_recognised),  CASE(groups_are_searched),
+      CASE(only_possible_requests_are_met),      CASE(files_without_vectors_say_so),
+      CASE(inventories_tell_what_reading_gives), CASE(inventories_tell_times_and_levels),
+      CASE(the_usual_level_is_the_seas_surface), CASE(the_demonstration_file_is_read),
   };
   return cmocka_run_group_tests_name("read/netcdf/netcdf", tests, NULL, NULL);
 }

@@ -2,6 +2,8 @@
 #ifndef FG__NETCDF_PLAIN_TEST_H
 #define FG__NETCDF_PLAIN_TEST_H
 
+#include <math.h>
+
 #include "read/netcdf/sample.h"
 
 enum { NX = 5, NY = 4, COUNT = NX * NY };
@@ -36,6 +38,20 @@ static inline void make_plain(sample_file *f, int mode, nc_type type, int id[2])
   }
   for (int k = 0; k < 2; ++k)
     sample_put(f, id[k], values[k]);
+}
+
+static inline void assert_samples(const fg_field *field, int t, int z)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  for (int j = 0; j < a->size[1]; ++j)
+    for (int i = 0; i < a->size[0]; ++i) {
+      const double x = a->axis[0][i];
+      const double y = a->axis[1][j];
+      assert_true(fabs((double)a->velocity[0][j * a->size[0] + i] - u_of(x, y, t, z)) <
+                  1e-4);
+      assert_true(fabs((double)a->velocity[1][j * a->size[0] + i] - v_of(x, y, t, z)) <
+                  1e-4);
+    }
 }
 
 #endif
