@@ -65,6 +65,8 @@ static void print_vector(const fg_inventory_vector *vector)
   for (int k = 0; k < vector->dimension; ++k)
     printf("  %s: %.6g to %.6g%s\n", axis_of(vector, k), vector->bounds[2 * k],
            vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
+  if (vector->chosen)
+    printf("  chosen: %s\n", clean_text(text, vector->chosen));
   print_values("times", vector->time_value, vector->times, 0);
   print_values("levels", vector->level_value, vector->levels, vector->usual_level);
   printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
@@ -135,6 +137,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddNumberToObject(object, "usual_level", vector->usual_level);
   if (vector->absent)
     cJSON_AddStringToObject(object, "absent", vector->absent);
+  if (vector->chosen)
+    cJSON_AddStringToObject(object, "chosen", vector->chosen);
   cJSON *names_of_axes = cJSON_AddArrayToObject(object, "axes");
   for (int k = 0; k < vector->dimension; ++k)
     cJSON_AddItemToArray(names_of_axes, cJSON_CreateString(axis_of(vector, k)));

@@ -1,5 +1,6 @@
 #include "picture/caption.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -323,8 +324,10 @@ static void list_values(fg__caption_value out[CAPTION_NAMES], const caption_text
  * analytic field stays. */
 static void begin_sentence(char *title, const caption_texts *texts)
 {
-  const bool word = title[0] >= 'a' && title[0] <= 'z' && title[1] >= 'a' &&
-                    title[1] <= 'z' && !strchr(title, '_');
+  const size_t letters = strspn(title, "abcdefghijklmnopqrstuvwxyz");
+  const bool word = letters > 1 && !strchr("_,", title[letters] ? title[letters] : ' ') &&
+                    !isupper((unsigned char)title[letters]) &&
+                    !isdigit((unsigned char)title[letters]);
   if (word && texts->in_words)
     title[0] = (char)(title[0] - 'a' + 'A');
 }

@@ -88,6 +88,10 @@ static void a_title_in_words_begins_with_a_capital(void **state)
       {"vortex (analytic)", NULL, "vortex (analytic)", FG_SCALE_PLAIN},
       {"u10, v10", NULL, "u10, v10", FG_SCALE_GEO},
       {"ua_850", NULL, "ua_850", FG_SCALE_GEO},
+      {"ua, va", NULL, "ua, va", FG_SCALE_GEO},
+      {"sea-surface wind", NULL, "Sea-surface wind", FG_SCALE_GEO},
+      {"horizontalVelX, horizontalVelY", NULL, "horizontalVelX, horizontalVelY",
+       FG_SCALE_GEO},
   };
   fg_icons *icons = lines(*state, 2);
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {

@@ -16,7 +16,7 @@ typedef struct entry {
   char *name[3];
   char *units;
   char *found_by;
-  char *unusable, *frame, *plane, *absent;
+  char *unusable, *frame, *plane, *absent, *chosen;
   value_list time, level;
 } entry;
 
@@ -88,6 +88,7 @@ static void clear_entry(entry *e)
   free(e->frame);
   free(e->plane);
   free(e->absent);
+  free(e->chosen);
 }
 
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
@@ -110,15 +111,17 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.frame = fg__copy_text(vector->frame);
   e.plane = fg__copy_text(vector->plane);
   e.absent = fg__copy_text(vector->absent);
+  e.chosen = fg__copy_text(vector->chosen);
   copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
            (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
-           (e.absent || !vector->absent);
+           (e.absent || !vector->absent) && (e.chosen || !vector->chosen);
   e.vector.units = e.units;
   e.vector.found_by = e.found_by;
   e.vector.unusable = e.unusable;
   e.vector.frame = e.frame;
   e.vector.plane = e.plane;
   e.vector.absent = e.absent;
+  e.vector.chosen = e.chosen;
   void *entries = inventory->entries;
   if (!copied ||
       !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {

@@ -155,6 +155,20 @@ static void a_mask_without_members_serves_all(void **state)
   unlink(second.path);
 }
 
+static void inventories_tell_what_is_chosen(void **state)
+{
+  sample_file *f = *state;
+  fg_inventory *inventory = NULL;
+  make_ensemble(f, 0);
+  const fg_read_options options = {.at = "version=1,member=20,time=0"};
+  assert_int_equal(fg_inventory_read_chosen(&inventory, f->context, f->path, &options),
+                   FG_STATUS_OK);
+  assert_string_equal(fg_inventory_vector_at(inventory, 0)->chosen,
+                      "member 20, version 1, time 0");
+  assert_int_equal(fg_inventory_vector_at(inventory, 0)->levels, 2);
+  fg_inventory_destroy(inventory);
+}
+
 /* A time can be chosen so, too, and is named. */
 static void any_dimension_can_be_chosen(void **state)
 {
@@ -274,6 +288,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(one_of_several_dimensions_is_read),
+      CASE(inventories_tell_what_is_chosen),
       CASE(any_dimension_can_be_chosen),
       CASE(choices_are_checked),
       CASE(samples_have_labels),

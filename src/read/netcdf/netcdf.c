@@ -318,7 +318,7 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 
 /* Texts that a vector of the inventory points to. */
 typedef struct vector_texts {
-  char units[FG__NC_TEXT], plane[FG__NC_TEXT];
+  char units[FG__NC_TEXT], plane[FG__NC_TEXT], chosen[FG__NC_TEXT];
   char frame[3 * FG__NC_TEXT];        /* a projection, and its directions */
   char unusable[3 * FG__NC_TEXT + 2]; /* the reason and the hint */
 } vector_texts;
@@ -371,6 +371,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
   if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
     fg__nc_text(pair->component[1], "units", text, sizeof text);
   fg__nc_units(text, texts.units, sizeof texts.units);
+  texts.chosen[0] = '\0';
+  for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
+    status = fg__nc_chosen_words(file, pair->component[0], of_time == 1, texts.chosen,
+                                 sizeof texts.chosen);
   fg_inventory_vector vector = {
       .components = grid->dimension,
       .name = {pair->component[0]->name,
@@ -386,6 +390,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
       .frame = describe_frame(texts.frame, sizeof texts.frame, grid),
       .usual_level = defaults.level,
       .absent = defaults.absent[0] ? defaults.absent : NULL,
+      .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured;
   if (on_axes)
