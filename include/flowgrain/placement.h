@@ -19,7 +19,8 @@ typedef enum fg_lengths {
 typedef enum fg_effort {
   FG_EFFORT_NORMAL = 0,
   FG_EFFORT_QUICK,   /* descent alone: some per cent more error, half the time */
-  FG_EFFORT_THOROUGH /* the best of five placements: up to five times the time */
+  FG_EFFORT_THOROUGH /* the best of five placements, of few arrows of nine: up to five
+                        times the time */
 } fg_effort;
 
 /* A zero field means its default, in brackets. */

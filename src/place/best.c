@@ -9,19 +9,23 @@
 
 /* A descent ends in a local minimum that depends on where it starts. So other placements
  * are made, of a first scale from even points, and the best is kept. */
-static const fg__place_schedule OTHERS[] = {
-    {0.65, 1.5}, {0.72, 1.75}, {0.58, 1.75}, {0.5, 2.0}};
-enum { MOST_OTHERS = sizeof OTHERS / sizeof *OTHERS };
+static const fg__place_schedule OTHERS[] = {{0.65, 1.5}, {0.72, 1.75}, {0.58, 1.75},
+                                            {0.5, 2.0},  {0.76, 1.6},  {0.62, 1.9},
+                                            {0.54, 1.4}, {0.46, 2.2}};
 
-/* Others of a first scale, and of one that is reached from a finer one. */
-static const struct {
+/* Others of a first scale, and of one that is reached from a finer one; for few icons and
+ * for more. */
+typedef struct restarts {
   int first, coarser;
-} RESTARTS[] = {[FG_EFFORT_NORMAL] = {1, 4},
-                [FG_EFFORT_QUICK] = {0, 0},
-                [FG_EFFORT_THOROUGH] = {4, 4}};
+} restarts;
+static const restarts OF_FEW[] = {[FG_EFFORT_NORMAL] = {1, 4},
+                                  [FG_EFFORT_QUICK] = {0, 0},
+                                  [FG_EFFORT_THOROUGH] = {4, 8}},
+                      OF_MORE[] = {[FG_EFFORT_NORMAL] = {0, 0},
+                                   [FG_EFFORT_QUICK] = {0, 0},
+                                   [FG_EFFORT_THOROUGH] = {4, 4}};
 
-/* Without FG_EFFORT_THOROUGH there are others in 2D only, of up to so many icons of free
- * or fair lengths. */
+/* Few are, in 2D, up to so many of free or fair lengths. */
 enum { FEW_FREE = 40, FEW_FAIR = 80 };
 
 /* Others start from a finer scale that has at least so many times as many icons. */
@@ -186,13 +190,11 @@ static int count_others(const fg__place_descent *descent, int count, bool is_fir
 {
   const fg_placement_options *options = descent->options;
   const int few = options->lengths == FG_LENGTHS_FAIR ? FEW_FAIR : FEW_FREE;
-  int others =
-      is_first ? RESTARTS[options->effort].first : RESTARTS[options->effort].coarser;
-  if (options->effort != FG_EFFORT_THOROUGH &&
-      (descent->domain->dimension != 2 || count > few))
-    return 0;
+  const bool are_few = descent->domain->dimension == 2 && count <= few;
+  const restarts *of = &(are_few ? OF_FEW : OF_MORE)[options->effort];
+  int others = of->first;
   if (!is_first)
-    return descent->search->count >= LEAST_FINER * count ? others : 0;
+    return descent->search->count >= LEAST_FINER * count ? of->coarser : 0;
   while (others > 0 &&
          OTHERS[others - 1].start * count > fg__descent_most(descent->domain))
     --others;
