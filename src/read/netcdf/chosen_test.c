@@ -226,7 +226,7 @@ static void choices_are_checked(void **state)
  * or rows of characters, under the dimension's name or another. */
 static void samples_have_labels(void **state)
 {
-  const char *names[] = {"historical", "ssp126", "ssp585"};
+  const char *names[] = {"historical", "ssp\xB9 26", "ssp585"};
   sample_file *f = *state;
   for (int kind = 0; kind < 3; ++kind) {
     static double values[MEMBERS * COUNT];
@@ -253,6 +253,9 @@ static void samples_have_labels(void **state)
     const fg_field_arrays *a = fg_field_contents(field);
     assert_string_equal(a->level, "scenario ssp585");
     assert_true(a->velocity[0][0] == 201.0f);
+    fg_field_destroy(field);
+    field = read_with(f, &(fg_read_options){.at = "scenario=1"}); /* no UTF-8 */
+    assert_string_equal(fg_field_contents(field)->level, "scenario ssp? 26");
     fg_field_destroy(field);
     refuse_with(f, &(fg_read_options){.at = "scenario=ssp999"}, FG_STATUS_UNSUPPORTED,
                 "0 is historical, 2 is ssp585");
