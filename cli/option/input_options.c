@@ -33,9 +33,9 @@ static const option_entry input_entries[] = {
      .help = "which time: a whole number is an index, from 0; a number with a unit or a "
              "point is a value, 3.5h; a date is the first time within it, 1982, "
              "1982-07, 1982-07-16, 1982-07-16T12:00. Of one value or date that is not "
-             "there the "
-             "nearest is taken, unless it lies farther beyond the first or the last than "
-             "that is from the next. run takes several, a folder each and up to 12 as "
+             "there the nearest is taken, unless it lies farther beyond the first or the "
+             "last than that is from the next. run takes several, a folder each and up "
+             "to 12 as "
              "panels of one figure, too: 0:11, 1982-01:1982-06, 0,6, all [0]"},
     {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_text),
      .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "

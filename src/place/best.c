@@ -135,7 +135,7 @@ static void work(void *argument, const fg__thread *thread)
     own->status = make_and_compare(own, number);
 }
 
-/* The descent goes on with the best of all; the first failure counts. */
+/* The descent goes on with the best of all, or fails where a thread has failed. */
 static fg_status take_best(fg__place_descent *descent, worker *all, int count,
                            const multistart *in)
 {

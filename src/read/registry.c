@@ -111,7 +111,7 @@ fg_status fg__source_open_known(fg__source *out, const fg__format **format,
   return status;
 }
 
-/* Only some formats have a mesh in a file of its own, and dimensions of names. */
+/* Refuses a file with the mesh and named dimensions where the format has neither. */
 static fg_status check_choice(fg_context *context, const fg__format *format,
                               const fg__source *source, const fg_read_options *options)
 {
@@ -122,6 +122,13 @@ static fg_status check_choice(fg_context *context, const fg__format *format,
                   options->at ? "a sample of a named dimension (--at)"
                               : "a file with the mesh (--mesh-from)",
                   format->name);
+}
+
+static fg_status open_for(fg__source *out, const fg__format **format, fg_context *context,
+                          const char *path, const fg_read_options *options)
+{
+  fg_status status = fg__source_open_known(out, format, context, path);
+  return status == FG_STATUS_OK ? check_choice(context, *format, out, options) : status;
 }
 
 static bool is_synthetic(const char *input)
@@ -180,11 +187,9 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
   static const fg_read_options defaults = {0};
   fg__source source;
   const fg__format *format;
-  fg_status status = fg__source_open_known(&source, &format, context, input);
   if (!options)
     options = &defaults;
-  if (status == FG_STATUS_OK)
-    status = check_choice(context, format, &source, options);
+  fg_status status = open_for(&source, &format, context, input, options);
   if (status == FG_STATUS_OK)
     status = name_the_file(
         context, fg__field_read_known(out, context, format, &source, options, slab),
@@ -303,9 +308,7 @@ static fg_status describe_file(fg_inventory **out, fg_context *context, const ch
 {
   fg__source source;
   const fg__format *format;
-  fg_status status = fg__source_open_known(&source, &format, context, path);
-  if (status == FG_STATUS_OK)
-    status = check_choice(context, format, &source, options);
+  fg_status status = open_for(&source, &format, context, path, options);
   if (status == FG_STATUS_OK)
     status = fg__inventory_create(out, context, format->name);
   if (status == FG_STATUS_OK && options && format->inventory_chosen)
@@ -363,9 +366,7 @@ fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
     return FG_STATUS_OK;
   fg__source source;
   const fg__format *format;
-  fg_status status = fg__source_open_known(&source, &format, context, input);
-  if (status == FG_STATUS_OK)
-    status = check_choice(context, format, &source, options);
+  fg_status status = open_for(&source, &format, context, input, options);
   if (status == FG_STATUS_OK && format->defaults)
     status = format->defaults(out, context, &source, options ? options : &defaults);
   fg__source_close(&source);

@@ -38,8 +38,8 @@ static int find_value(const fg_axis_value *values, size_t count, const char *whi
   return -1;
 }
 
-/* Which sample is meant: a value or name that is there, else an index. What is wrong is
- * said of the file. */
+/* Which sample is meant: a value or name that is there, else an index. Errors name the
+ * file. */
 static fg_status select_sample(size_t *out, const fg__nc_file *file,
                                const fg__nc_dimension *d, const char *which,
                                const fg_axis_value *values)
