@@ -37,12 +37,15 @@ static const double CHAIN_STEP = 0.1; /* in lambda */
 
 const fg__place_schedule fg__place_first_schedule = {0.8, 1.25};
 
-/* The most ink of a free placement (fg__place_ink); its penalty grows until that holds.
- */
-static const double MOST_INK = 1.48;
-static const double FIRST_INK_PENALTY = 0.25;
-static const double INK_PENALTY_GROWTH = 1.6;
+/* The most ink of a free placement (fg__place_ink). Where it would be more its penalty
+ * comes to what leaves so much, as ink that is left unused is error. */
+static const double MOST_INK = 1.495, WANTED_INK = 1.488, LEAST_INK = 1.475;
 enum { MOST_INK_STEPS = 12 };
+
+/* By how much the ink falls where its penalty rises by 1, about; the largest change of
+ * the penalty at once; the share of it while icons still get fewer. */
+static const double INK_A_PENALTY = 0.4, MOST_PENALTY_STEP = 0.4, CHAIN_SHARE = 0.5;
+static const double INK_STEP = 0.1; /* icons move by so many lambda after the first */
 
 /* From icons of another placement, as of an animation's frame before, so that they stay:
  * the first steps, in lambda, those where ink is too much, and the least fall by an
@@ -125,16 +128,30 @@ static fg_status start(fg__place_descent *descent, int count, const fg_icons *cl
   return status;
 }
 
-/* Relaxes, and while the ink exceeds MOST_INK raises its penalty and relaxes again, by
- * steps of `step` lambda. */
+static void adjust_penalty(fg__place_search *search, double share)
+{
+  const double change = (fg__place_ink(search) - WANTED_INK) / INK_A_PENALTY;
+  const double step = fmax(fmin(change, MOST_PENALTY_STEP), -MOST_PENALTY_STEP);
+  if (search->scale.free)
+    search->scale.ink = fmax(search->scale.ink + share * step, 0.0);
+}
+
+static bool has_other_ink(const fg__place_search *search)
+{
+  const double ink = fg__place_ink(search);
+  return search->scale.free &&
+         (ink > MOST_INK || (ink < LEAST_INK && search->scale.ink > 0.0));
+}
+
+/* Relaxes, and while there is too much or too little ink changes its penalty and relaxes
+ * again, first by steps of `step` lambda. */
 static fg_status descend(fg__place_search *search, int sweeps, double step)
 {
   fg_status status = fg__place_relax(search, sweeps);
-  for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && search->scale.free &&
-                  fg__place_ink(search) > MOST_INK;
+  for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && has_other_ink(search);
        ++n) {
-    search->scale.ink = fmax(search->scale.ink * INK_PENALTY_GROWTH, FIRST_INK_PENALTY);
-    fg__place_reactivate_all(search, step);
+    adjust_penalty(search, 1.0);
+    fg__place_reactivate_all(search, n > 0 ? INK_STEP : step);
     status = fg__place_relax(search, 2);
   }
   return status;
@@ -196,6 +213,7 @@ static fg_status thin_to(fg__place_search *search, int count)
   fg__place_reactivate_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
     status = fg__place_relax(search, 3);
+  adjust_penalty(search, CHAIN_SHARE);
   return status;
 }
 
@@ -203,6 +221,7 @@ fg_status fg__descent_go_down(fg__place_descent *descent, int count, double rati
 {
   fg__place_search *search = descent->search;
   fg_status status = FG_STATUS_OK;
+  search->scale.ink = search->scale.first_ink;
   for (int now = search->count; search->scale.count > count && status == FG_STATUS_OK;) {
     int next = (int)(ratio * now);
     now = next > count ? next : count;

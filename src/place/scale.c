@@ -11,6 +11,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
 {
   bool flat = dimension == 2;
   double share = measure / count, lambda = flat ? sqrt(share) : cbrt(share);
+  const double ink = flat || !free ? 0.0 : 0.1;
   return (fg__place_scale){
       .dimension = dimension,
       .count = count,
@@ -23,7 +24,7 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .turning = 165.0 * FG__RADIANS,
       .longest = (free ? 2.0 : 1.0) * lambda,
       .first_way = (free ? 0.6 : 0.5) * lambda,
-      .crowding = 0.2,
+      .crowding = 0.1,
       .crowd_range = 0.3 * lambda,
       .ends = 0.7,
       .end_gap = 0.2 * lambda,
@@ -32,7 +33,8 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .diffusion = 2.0,
       .far = 3.0,
       .brevity = 4.0,
-      .ink = flat || !free ? 0.0 : 0.1,
+      .ink = ink,
+      .first_ink = ink,
       .free = free,
   };
 }

@@ -25,7 +25,8 @@ typedef struct fg__place_scale {
   double touch_gap;   /* which falls to 0 at this distance */
   double far;         /* kappa: weight of the distance to the nearest line */
   double brevity;     /* nu: penalty for short lines */
-  double ink;         /* p: penalty for length */
+  double ink;         /* p: penalty for length, */
+  double first_ink;   /* which begins with this */
   bool free;          /* each icon has a length of its own */
 } fg__place_scale;
 

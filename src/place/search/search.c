@@ -92,9 +92,11 @@ static void erase(fg__place_search *search, int index)
 fg_status fg__place_search_rescale(fg__place_search *search, int count)
 {
   double before = search->scale.lambda;
+  const double ink = search->scale.ink;
   bool free = search->scale.free;
   clear_scale(search);
   fg_status status = set_scale(search, count, free);
+  search->scale.ink = ink;
   double grown = search->scale.lambda / before;
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];

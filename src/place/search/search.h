@@ -44,7 +44,7 @@ fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
 void fg__place_search_clear(fg__place_search *search);
 
 /* Changes the number of icons that the search is for. Its icons stay where they are, with
- * lengths in proportion to the new lambda. MEMORY. */
+ * lengths in proportion to the new lambda; the penalty of ink stays. MEMORY. */
 fg_status fg__place_search_rescale(fg__place_search *search, int count);
 
 /* Adds an icon at a seed; *added is false where no line can lie. MEMORY. */
