@@ -24,6 +24,9 @@
  * for each 20 MB, as large files are less compressed. Valid files need a fifth of it, or
  * less. */
 enum { SMALL_BYTES_A_SECOND = 25000, BYTES_A_SECOND = 20000000, MOST_SECONDS = 10 };
+
+/* What an HDF5 file holds is listed in less: one second, plus one for each 250 kB. */
+enum { LISTED_BYTES_A_SECOND = 250000 };
 enum { TIMES_LARGER = 4096 };
 static const size_t MOST_BYTES = (size_t)1 << 30;
 
@@ -266,10 +269,10 @@ static void add_file(const char **library, size_t *size, const char *path)
   add(library, size, library_of(start, got > 0 ? (size_t)got : 0), (size_t)about.st_size);
 }
 
-static child_bounds bounds_for(size_t size)
+static child_bounds bounds_for(size_t size, size_t small_bytes_a_second)
 {
   const size_t most = (SIZE_MAX / 4 - MOST_BYTES) / TIMES_LARGER;
-  const size_t small = 1 + size / SMALL_BYTES_A_SECOND;
+  const size_t small = 1 + size / small_bytes_a_second;
   const size_t large = MOST_SECONDS + size / BYTES_A_SECOND;
   return (child_bounds){.seconds = (unsigned)(small < large ? small : large),
                         .bytes = MOST_BYTES + TIMES_LARGER * (size < most ? size : most)};
@@ -316,10 +319,17 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
   add_file(&library, &size, options ? options->mesh_from : NULL);
   if (!library)
     return EXIT_DONE;
-  reading r = {input, options, slab, slabs};
-  const child_bounds bounds = bounds_for(size);
-  child_outcome outcome;
-  do_in_child(&outcome, read_once, &r, &bounds);
+  const bool lists = !options || slabs == 0, hdf5 = strcmp(library, "HDF5") == 0;
+  reading list = {input, options, 0, 0}, r = {input, options, slab, slabs};
+  child_bounds bounds = bounds_for(size, LISTED_BYTES_A_SECOND);
+  child_outcome outcome = {.signal = 0};
+  if (hdf5 && !lists)
+    do_in_child(&outcome, read_once, &list, &bounds);
+  if (!outcome.signal) { /* any complaint is made again */
+    if (!hdf5 || !lists)
+      bounds = bounds_for(size, SMALL_BYTES_A_SECOND);
+    do_in_child(&outcome, read_once, &r, &bounds);
+  }
   if (interrupt_came() || (!outcome.signal && !outcome.complaint[0]))
     return EXIT_DONE; /* the reading itself stops at an interrupt */
   return complain_of_child(input, library, &outcome, &bounds);

@@ -52,7 +52,7 @@ static void find_positions(fg__nc_part *part, const fg__nc_file *file)
   }
   x = fg__nc_coordinate(file, u, part->grid.axis[0].position);
   y = fg__nc_coordinate(file, u, part->grid.axis[1].position);
-  if (x && y && fg__nc_geographic(x) == FG__NC_X && fg__nc_geographic(y) == FG__NC_Y) {
+  if (x && y && x->geographic == FG__NC_X && y->geographic == FG__NC_Y) {
     part->longitude = x;
     part->latitude = y;
   }
@@ -93,7 +93,7 @@ static bool find_centres(fg__nc_mesh *mesh, const fg__nc_file *file)
       const fg__nc_variable *v = &file->variables[i];
       fg__nc_part part = {0};
       if (v->rank < 2 || v->rank > 3 || !fg__nc_is_array(v) ||
-          fg__nc_geographic(v) != FG__NC_X || !set_part(&part, file, v))
+          v->geographic != FG__NC_X || !set_part(&part, file, v))
         continue;
       if (strict ? !has_dimensions(mesh, file, &part, dimension)
                  : part.grid.axis[0].size != mesh->size[0] ||
@@ -118,7 +118,7 @@ static bool find_centre_lines(fg__nc_mesh *mesh, const fg__nc_file *file)
       fg__nc_coordinate(file, v->variable, v->grid.axis[0].position);
   const fg__nc_variable *y =
       fg__nc_coordinate(file, u->variable, u->grid.axis[1].position);
-  if (!x || !y || fg__nc_geographic(x) != FG__NC_X || fg__nc_geographic(y) != FG__NC_Y)
+  if (!x || !y || x->geographic != FG__NC_X || y->geographic != FG__NC_Y)
     return false;
   mesh->centre = *u;
   mesh->centre.grid.axis[0] = v->grid.axis[0];

@@ -121,7 +121,7 @@ static void describe_axis(fg__nc_axis *axis, const fg__nc_variable *coordinate, 
   axis->quantity = fg__nc_units(text, axis->units, sizeof axis->units);
   fg__nc_text(coordinate, "standard_name", text, sizeof text);
   snprintf(axis->name, sizeof axis->name, "%s", coordinate->plain_name);
-  const fg__nc_role geographic = fg__nc_geographic(coordinate);
+  const fg__nc_role geographic = coordinate->geographic;
   if (strncmp(text, "grid_l", 6) == 0) {
     /* rotated pole: degrees, neither east nor north */
     axis->quantity = FG__NC_DEGREES;

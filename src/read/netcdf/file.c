@@ -228,6 +228,7 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
     fg__nc_variable *v = &file->variables[i];
     const char *slash = strrchr(v->name, '/');
     v->plain_name = slash && slash[1] ? slash + 1 : v->name;
+    fg__nc_classify(v);
   }
   return status;
 }

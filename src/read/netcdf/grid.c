@@ -139,8 +139,8 @@ static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
     both = both && coordinate[k] && !fg__nc_counts(coordinate[k]);
   }
   /* longitudes and latitudes along the axes may be nominal (MOM) */
-  const bool nominal = both && fg__nc_geographic(coordinate[0]) == FG__NC_X &&
-                       fg__nc_geographic(coordinate[1]) == FG__NC_Y &&
+  const bool nominal = both && coordinate[0]->geographic == FG__NC_X &&
+                       coordinate[1]->geographic == FG__NC_Y &&
                        fg__nc_names_plane(grid, file, v);
   if (!both || nominal) {
     bool found = false;

@@ -59,6 +59,16 @@ typedef struct fg__nc_dimension {
   bool unlimited;
 } fg__nc_dimension;
 
+typedef enum fg__nc_role {
+  FG__NC_NO_ROLE = -1,
+  FG__NC_X = 0,
+  FG__NC_Y,
+  FG__NC_TIME,
+  FG__NC_LEVEL
+} fg__nc_role;
+
+enum { FG__NC_ROLES = 4 };
+
 typedef struct fg__nc_variable {
   struct fg__nc_file *owner;
   int file;  /* below FG__NC_FILES */
@@ -72,6 +82,9 @@ typedef struct fg__nc_variable {
   int dimension[FG__NC_RANK]; /* indices into the file's dimensions */
   int element; /* 1 or 2: of a vector variable, whose last dimension (of length 2) is not
                   counted in `rank`; 0: it is a whole variable */
+  /* From its attributes, which are slow to read; by fg__nc_classify. */
+  fg__nc_role geographic; /* longitude (X), latitude (Y), or neither */
+  bool upward;            /* a velocity, by its standard name */
 } fg__nc_variable;
 
 /* The input and up to two files with what it lacks: the other component, the mesh. */
@@ -199,18 +212,8 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
  * matching name; NULL: none. */
 const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
 
-typedef enum fg__nc_role {
-  FG__NC_NO_ROLE = -1,
-  FG__NC_X = 0,
-  FG__NC_Y,
-  FG__NC_TIME,
-  FG__NC_LEVEL
-} fg__nc_role;
-
-enum { FG__NC_ROLES = 4 };
-
-/* Whether a coordinate is longitude (X), latitude (Y), or neither. */
-fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate);
+/* Sets what a variable's attributes tell of it. */
+void fg__nc_classify(fg__nc_variable *variable);
 
 /* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,

@@ -63,7 +63,7 @@ const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
   int best = -1;
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    if (!lies_in_plane(file, v, x, y) || fg__nc_geographic(v) != role)
+    if (!lies_in_plane(file, v, x, y) || v->geographic != role)
       continue;
     const int rank = 2 * (v->file == variable->file) + is_listed(listed, v->plain_name);
     if (rank > best) {

@@ -127,7 +127,7 @@ static fg__nc_role role_of_name(const char *name)
   return FG__NC_NO_ROLE;
 }
 
-fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate)
+static fg__nc_role geographic_role(const fg__nc_variable *coordinate)
 {
   char text[FG__NC_TEXT];
   char label[FG__NC_TEXT];
@@ -157,6 +157,20 @@ fg__nc_role fg__nc_geographic(const fg__nc_variable *coordinate)
   return FG__NC_NO_ROLE;
 }
 
+/* CF: "upward_air_velocity", "upward_sea_water_velocity". */
+static bool is_upward_velocity(const fg__nc_variable *v)
+{
+  char name[FG__NC_TEXT];
+  fg__nc_text(v, "standard_name", name, sizeof name);
+  return strncmp(name, "upward_", 7) == 0 && strstr(name, "velocity");
+}
+
+void fg__nc_classify(fg__nc_variable *variable)
+{
+  variable->geographic = geographic_role(variable);
+  variable->upward = is_upward_velocity(variable);
+}
+
 bool fg__nc_counts(const fg__nc_variable *coordinate)
 {
   char text[FG__NC_TEXT];
@@ -164,7 +178,7 @@ bool fg__nc_counts(const fg__nc_variable *coordinate)
   fg__nc_text(coordinate, "standard_name", text, sizeof text);
   if (strstr(text, "grid_index"))
     return true;
-  if (text[0] != '\0' || fg__nc_geographic(coordinate) != FG__NC_NO_ROLE)
+  if (text[0] != '\0' || coordinate->geographic != FG__NC_NO_ROLE)
     return false;
   fg__nc_text(coordinate, "units", text, sizeof text);
   return fg__nc_units(text, label, sizeof label) == FG__NC_UNKNOWN;

@@ -46,14 +46,6 @@ static bool is_named_like(const char *w, const char *u, const char *v)
   return true;
 }
 
-/* CF: "upward_air_velocity", "upward_sea_water_velocity". */
-static bool is_upward_velocity(const fg__nc_variable *v)
-{
-  char name[FG__NC_TEXT];
-  fg__nc_text(v, "standard_name", name, sizeof name);
-  return strncmp(name, "upward_", 7) == 0 && strstr(name, "velocity");
-}
-
 const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair)
 {
   const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
@@ -62,14 +54,15 @@ const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *w = &file->variables[i];
     if (w == u || w == v || !same_dimensions(u, w) || w->type < NC_BYTE ||
-        w->type > NC_UINT64 || w->type == NC_CHAR || !same_units(u, w))
+        w->type > NC_UINT64 || w->type == NC_CHAR)
       continue;
-    if (is_named_like(w->name, u->name, v->name))
+    const bool named = is_named_like(w->name, u->name, v->name);
+    if ((!named && !w->upward) || !same_units(u, w))
+      continue;
+    if (named)
       return w;
-    if (is_upward_velocity(w)) {
-      upward = w;
-      ++upward_count;
-    }
+    upward = w;
+    ++upward_count;
   }
   return upward_count == 1 ? upward : NULL;
 }

@@ -20,7 +20,7 @@ bool fg__nc_same_dimension(const fg__nc_file *file, int a, int b)
 fg__nc_role fg__nc_angle_role(const fg__nc_variable *v)
 {
   char text[FG__NC_TEXT];
-  const fg__nc_role role = fg__nc_geographic(v);
+  const fg__nc_role role = v->geographic;
   fg__nc_text(v, "units", text, sizeof text);
   if (role != FG__NC_NO_ROLE || strncmp(text, "rad", 3) != 0)
     return role;
