@@ -1,8 +1,10 @@
 #include "file/number_text.h"
 
 #include <errno.h>
+#include <float.h>
 #include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -30,13 +32,14 @@ static const double POWER[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
  * one of these powers. */
 static const double SMALLEST = 1e-4, LARGEST = 1e15;
 
-enum { DIGITS = 15 };
+enum { DIGITS = 15, ALL_DIGITS = 17 };
+static const int64_t MOST_WHOLE = 100000000000000000; /* of all digits */
 
-/* The decimal places of 15 digits of a number between these sizes. */
-static int places_of(double size)
+/* The decimal places of so many digits of a number between these sizes. */
+static int places_of(double size, int digits)
 {
-  int places = DIGITS - 1;
-  for (; places > 0 && size >= POWER[DIGITS - places]; --places)
+  int places = digits - 1;
+  for (; places > 0 && size >= POWER[digits - places]; --places)
     ;
   for (double shifted = size; shifted < 1.0; shifted *= 10.0)
     ++places;
@@ -71,12 +74,40 @@ static bool write_short(char text[FG__NUMBER_BYTES], double number)
   const double size = fabs(number);
   if (!(size >= SMALLEST && size < LARGEST))
     return false;
-  const int places = places_of(size);
+  const int places = places_of(size, DIGITS);
   const double whole = nearbyint(size * POWER[places]);
   if (whole / POWER[places] != size)
     return false;
   write_decimal(text, number < 0.0, (long long)whole, places);
   return true;
+}
+
+/* Of a number between these sizes: its 53 bits are a whole number over a power of two,
+ * and 10^20 times as much has less than 128 bits. */
+__extension__ typedef unsigned __int128 wide;
+
+/* The number of 10^-places in a size, the nearest, of two the even one; exact. */
+static int64_t count_units(double size, int places)
+{
+  int exponent;
+  const double fraction = frexp(size, &exponent);
+  const int shift = DBL_MANT_DIG - exponent;
+  wide all = (wide)(uint64_t)ldexp(fraction, DBL_MANT_DIG);
+  for (int n = 0; n < places; ++n)
+    all *= 10;
+  const wide half = (wide)1 << (shift - 1), rest = all & ((half << 1) - 1);
+  const int64_t whole = (int64_t)(all >> shift);
+  return whole + (rest > half || (rest == half && whole % 2 != 0));
+}
+
+static void write_all_digits(char text[FG__NUMBER_BYTES], double number)
+{
+  const double size = fabs(number);
+  int places = places_of(size, ALL_DIGITS);
+  int64_t whole = count_units(size, places);
+  if (whole < MOST_WHOLE / 10) /* places_of takes 0.1 less an ulp for 0.1 */
+    whole = count_units(size, ++places);
+  write_decimal(text, number < 0.0, whole, places);
 }
 
 void fg__number_write(char text[FG__NUMBER_BYTES], double number)
@@ -86,7 +117,7 @@ void fg__number_write(char text[FG__NUMBER_BYTES], double number)
     return;
   const double size = fabs(number);
   if (size >= SMALLEST && size < LARGEST) {
-    snprintf(text, FG__NUMBER_BYTES, "%.17g", number);
+    write_all_digits(text, number);
     return;
   }
   snprintf(text, FG__NUMBER_BYTES, "%.15g", number);
