@@ -1,5 +1,7 @@
 #include "alternatives.h"
 
+#include <string.h>
+
 #include "inputs.h"
 
 void count_alternatives(int *times, int *levels, const char *input,
@@ -24,7 +26,10 @@ void advise_alternatives(const fg_context *failed, fg_status status, const char 
                          const fg_read_options *options)
 {
   int times = 0, levels = 0;
-  const bool of_data = status == FG_STATUS_ARGUMENT || status == FG_STATUS_FILE_FORMAT;
+  /* an argument's fault is one of the values where a field could not be made of them */
+  const bool of_data = status == FG_STATUS_FILE_FORMAT ||
+                       (status == FG_STATUS_ARGUMENT &&
+                        strncmp(fg_context_message(failed), "field: ", 7) == 0);
   if (!of_data || *fg_context_hint(failed))
     return;
   count_alternatives(&times, &levels, input, options);

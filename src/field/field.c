@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/fingerprint.h"
+#include "field/refused.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -9,11 +10,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Larger speeds are refused: light makes 3e8 m/s (3e14 um/s), so they are fill values
- * that the file did not declare; and up to here (v / cos latitude)^2 is finite in float.
- */
-static const double LARGEST_SPEED = 1e15;
 
 /* Larger coordinates are refused: 1e20 and more are customary fill values, and the
  * squares of those up to here are far from overflow in double. */
@@ -164,30 +160,6 @@ static size_t own_samples(const fg_field *field)
   return fg__field_held(field) / rows * (field->slab ? (size_t)field->slab->own : rows);
 }
 
-/* Refuses the speed of a sample; `i` is its index among those held. */
-static fg_status fail_speed(const fg_field *field, fg_context *context, int k,
-                            double value, size_t i)
-{
-  const size_t row = (size_t)field->held[0];
-  const size_t rows = (size_t)field->held[1];
-  size_t at[3] = {i % row, i / row % rows, i / row / rows};
-  const int last = fg__field_last_axis(field);
-  at[last] = (at[last] + (size_t)field->first[last]) % (size_t)field->axis[last].samples;
-  const char *name = field->contents.velocity_name[k];
-  fg_status status;
-  if (field->contents.dimension == 3)
-    status =
-        fg__fail(context, FG_STATUS_ARGUMENT,
-                 "field: %s is %g at sample (%zu, %zu, %zu); speeds up to %g are taken",
-                 name, value, at[0], at[1], at[2], LARGEST_SPEED);
-  else
-    status = fg__fail(context, FG_STATUS_ARGUMENT,
-                      "field: %s is %g at sample (%zu, %zu); speeds up to %g are taken",
-                      name, value, at[0], at[1], LARGEST_SPEED);
-  fg__hint(context, "is it a fill value that is not declared as missing?");
-  return status;
-}
-
 /* Copies the samples of the field, or takes over the arrays `taken`, and counts those
  * that are missing, which become NaN. */
 static fg_status copy_samples(fg_field *field, fg_context *context,
@@ -208,13 +180,15 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
     const bool present = !fg__field_is_missing(arrays, i);
     const bool infinite = present && sample_is_infinite(arrays, i);
     const bool valid = present && !infinite;
+    if (valid && fg__is_missing_code(arrays->velocity, arrays->dimension, i))
+      return fg__field_fail_code(field, context, (double)arrays->velocity[0][i], i);
     *missing += !valid;
     field->infinite += infinite && i < own;
     for (int k = 0; k < arrays->dimension; ++k) {
       const float value = valid ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
-      if (fabs((double)value) > LARGEST_SPEED)
-        return fail_speed(field, context, k, (double)value, i);
+      if (fabs((double)value) > fg__field_largest_speed)
+        return fg__field_fail_speed(field, context, k, (double)value, i);
     }
   }
   return FG_STATUS_OK;

@@ -406,6 +406,13 @@ static void bad_values_are_refused(void **state)
   assert_refused(set, "u is 9.96921e+36 at sample (2, 1)");
   set->u[7] = -1e34f;
   assert_refused(set, "-1e+34");
+  set->u[7] = -999.0f; /* one component may be that */
+  fg_field_destroy(make(set));
+  set->v[7] = -999.0f;
+  assert_refused(set, "every component is -999 at sample (2, 1)");
+  set->valid[7] = 0;
+  fg_field_destroy(make(set));
+  set->valid[7] = 1;
   memset(set->u, 0, sizeof set->u);
   memset(set->v, 0, sizeof set->v);
   assert_refused(set, "zero everywhere");

@@ -142,6 +142,14 @@ static void wind_is_turned_to_the_models_plane(void **state)
   }
 }
 
+static void a_third_component_is_none_of_a_plane(void **state)
+{
+  sample_file *f = *state;
+  write_model(f, &MODELS[0], MODELS[0].meridian);
+  refuse_with(f, &(fg_read_options){.vars = "U10,V10,COSALPHA"}, FG_STATUS_UNSUPPORTED,
+              "'COSALPHA' cannot be read with them");
+}
+
 /* The options of a centre, another projection or no map take precedence; a region cuts
  * the plane. */
 static void other_maps_may_be_chosen(void **state)
@@ -199,6 +207,7 @@ int main(void)
       CASE(wind_is_turned_to_the_models_plane),
       CASE(other_maps_may_be_chosen),
       CASE(other_grids_planes_are_not_taken),
+      CASE(a_third_component_is_none_of_a_plane),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

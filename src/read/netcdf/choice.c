@@ -108,6 +108,28 @@ static int split_names(char name[3][FG__NC_NAME], const char *vars)
   return 0;
 }
 
+/* Refuses "v,u" of a pair whose standard names are those of u and v. */
+static fg_status check_order(const fg__nc_file *file, const candidates *all,
+                             const fg__nc_pair *pair)
+{
+  for (size_t i = 0; i < all->count; ++i) {
+    const fg__nc_pair *known = &all->pair[i];
+    if (known->component[0] != pair->component[1] ||
+        known->component[1] != pair->component[0] ||
+        strcmp(known->found_by, "standard_name") != 0)
+      continue;
+    char names[2 * FG__NC_NAME];
+    write_names(names, sizeof names, known, false);
+    fg__fail(
+        file->context, FG_STATUS_ARGUMENT,
+        "%s: by their standard names '%s' is the second component, and '%s' the first",
+        file->paths[0], pair->component[0]->name, pair->component[1]->name);
+    fg__hint(file->context, "--vars %s", names);
+    return FG_STATUS_ARGUMENT;
+  }
+  return FG_STATUS_OK;
+}
+
 static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
                               const candidates *all, const char *vars)
 {
@@ -130,7 +152,7 @@ static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
     if (out->component[k] == out->component[(k + 1) % count])
       return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
                       file->paths[0], count == 2 ? "both" : "two", name[k]);
-  return FG_STATUS_OK;
+  return check_order(file, all, out);
 }
 
 static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
@@ -143,6 +165,18 @@ static fg_status fail_unusable(const fg__nc_file *file, const fg__nc_pair *pair,
   if (grid->hint[0])
     fg__hint(file->context, "%s", grid->hint);
   return status;
+}
+
+/* Three components were named of what is read as a plane. */
+static fg_status fail_flat(const fg__nc_file *file, const fg__nc_pair *pair)
+{
+  char names[2 * FG__NC_NAME];
+  write_names(names, sizeof names, pair, false);
+  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+           "%s: %s lie on a grid that is no volume: '%s' cannot be read with them",
+           file->paths[0], names, pair->component[2]->name);
+  fg__hint(file->context, "--vars %s reads the plane of one level", names);
+  return FG_STATUS_UNSUPPORTED;
 }
 
 /* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
@@ -240,6 +274,8 @@ fg_status fg__nc_choose(fg__nc_pair *pair, fg__nc_grid *grid, const fg__nc_file 
       status = fg__nc_grid_find(grid, file, pair, options);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(file, pair, grid);
+    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3)
+      status = fail_flat(file, pair);
   } else if (status == FG_STATUS_OK) {
     status = choose_best(pair, grid, file, &all, options);
   }

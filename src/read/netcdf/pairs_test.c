@@ -181,6 +181,12 @@ static void heights_of_one_standard_name_are_told_apart(void **state)
   assert_int_equal(fg_field_read(&field, f->context, f->path, &options), FG_STATUS_OK);
   assert_string_equal(fg_field_contents(field)->velocity_name[1], "v100");
   fg_field_destroy(field);
+  const fg_read_options turned = {.vars = "v100,u100"};
+  assert_int_equal(fg_field_read(&field, f->context, f->path, &turned),
+                   FG_STATUS_ARGUMENT);
+  assert_non_null(
+      strstr(fg_context_message(f->context), "'v100' is the second component"));
+  assert_string_equal(fg_context_hint(f->context), "--vars u100,v100");
 }
 
 static void read_first_name(sample_file *f, char *out, size_t size)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "field/refused.h"
 #include "read/points/delaunay.h"
 
 /* The largest share of points that may have another value than one at the same place. */
@@ -40,8 +41,21 @@ static int record_of(const fg__scatter *points, size_t i)
   return points->record ? points->record[i] : (int)i;
 }
 
+static fg_status fail_code(const fg__scatter *points, size_t i)
+{
+  const fg_status status =
+      fg__fail(points->context, FG_STATUS_FILE_FORMAT,
+               "%s: %s %d: both components are %g, which stands for missing data in "
+               "many files",
+               points->path, points->records, record_of(points, i),
+               (double)points->velocity[0][i]);
+  fg__hint(points->context, "leave such values empty, or write nan");
+  return status;
+}
+
 static fg_status check_places(const fg__scatter *points)
 {
+  const float *const across[3] = {points->velocity[0], points->velocity[1], NULL};
   if (points->count > FG__DELAUNAY_MOST)
     return fg__fail(points->context, FG_STATUS_UNSUPPORTED,
                     "%s: %zu points; at most %d can be read", points->path, points->count,
@@ -57,6 +71,9 @@ static fg_status check_places(const fg__scatter *points)
                         "%s: %s %d: the point's coordinate %d is %g", points->path,
                         points->records, record_of(points, i), k + 1,
                         points->position[k][i]);
+  for (size_t i = 0; i < points->count; ++i)
+    if (fg__is_missing_code(across, 2, i))
+      return fail_code(points, i);
   for (size_t i = 0; i < points->count && points->geographic; ++i)
     if (fabs(points->position[1][i]) > 90.0 || fabs(points->position[0][i]) > 720.0)
       return fg__fail(points->context, FG_STATUS_FILE_FORMAT,

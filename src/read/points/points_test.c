@@ -271,6 +271,10 @@ static void places_of_no_area_are_refused(void **state)
   refuse(&g, FG_STATUS_FILE_FORMAT, "line 7: the point's coordinate 1 is inf");
   g = make_points(*state, 2);
   refuse(&g, FG_STATUS_FILE_FORMAT, "2 points");
+  g = make_points(*state, 40);
+  for (size_t i = 0; i < 40; ++i)
+    g.u[i] = g.v[i] = i == 9 ? -9999.0f : 1.0f;
+  refuse(&g, FG_STATUS_FILE_FORMAT, "line 9: both components are -9999");
 }
 
 int main(void)
