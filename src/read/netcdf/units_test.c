@@ -122,6 +122,18 @@ static void dates_follow_the_calendar(void **state)
   assert_date(360.0 * 5.0 - 1.0, "days since -900-01-01", "360_day", "-896-12-30");
   assert_date(366.0, "hour since 0000-01-01 00:00:00", "", "16 January (climatology)");
   assert_date(-719528.0, "days since 1970-01-01", "proleptic_gregorian", "0000-01-01");
+  /* months and years are those of the calendar */
+  assert_date(1.0, "months since 1980-01-01", "", "1980-02-01");
+  assert_date(1.5, "months since 1980-01-01", "", "1980-02-15 12:00");
+  assert_date(-1.0, "month since 1980-01-16 12:00", "noleap", "1979-12-16 12:00");
+  assert_date(0.5, "months since 1980-02-01", "360_day", "1980-02-16");
+  assert_date(1.0, "months since 2001-01-31", "",
+              "2001-03-03"); /* past the month's end */
+  assert_date(25.0, "years since 1975-03-01", "", "2000-03-01");
+  assert_date(0.5, "years since 1981-01-01", "", "1981-07-01");
+  assert_date(2.0, "months since 0000-01-15", "", "15 March (climatology)");
+  assert_date(1e9, "months since 1980-01-01", "", NULL);
+  assert_date(1.0, "fortnights since 1980-01-01", "", NULL);
 }
 
 /* Day by day against the C library, over two centuries and back. */

@@ -40,20 +40,33 @@ static bool read_clock(const char **text, double *seconds)
   return isfinite(*seconds);
 }
 
-/* Parses the unit and the reference: a date, an optional time of day, and an optional
- * offset from UTC. */
-static bool read_reference(const char *units, double *unit, fg__date *date,
+/* Months in a unit of them; 0: another unit. */
+static int months_of(const char *word)
+{
+  const size_t length = strlen(word);
+  const size_t single = length - (length > 0 && tolower(word[length - 1]) == 's');
+  return single == 5 && strncasecmp(word, "month", single) == 0  ? 1
+         : single == 4 && strncasecmp(word, "year", single) == 0 ? 12
+                                                                 : 0;
+}
+
+/* Parses the unit, in seconds or in months, and the reference: a date, an optional time
+ * of day, and an optional offset from UTC. */
+static bool read_reference(const char *units, double *unit, int *months, fg__date *date,
                            double *seconds)
 {
   char word[32];
   char since[8];
   int year;
   int used = 0;
+  *unit = 0.0;
+  *months = 0;
   if (sscanf(units, "%31s %7s %d-%d-%d%n", word, since, &year, &date->month, &date->day,
              &used) != 5 ||
-      strcasecmp(since, "since") != 0 || !fg__nc_seconds(word, unit) || date->month < 1 ||
-      date->month > 12 || date->day < 1 || date->day > 31 || year < -10000 ||
-      year > 100000 || !strchr(" Tt", units[used]))
+      strcasecmp(since, "since") != 0 ||
+      ((*months = months_of(word)) == 0 && !fg__nc_seconds(word, unit)) ||
+      date->month < 1 || date->month > 12 || date->day < 1 || date->day > 31 ||
+      year < -10000 || year > 100000 || !strchr(" Tt", units[used]))
     return false;
   date->year = year;
   fg__number_locale locale;
@@ -97,6 +110,22 @@ static bool write_absolute(char *out, size_t size, double value)
   return true;
 }
 
+/* Moves a date by calendar months; the seconds of what is left of a month. UDUNITS takes
+ * a month for a twelfth of a mean year, which no file means. */
+static double move_by_months(fg__date *date, fg__calendar calendar, double months)
+{
+  const double whole = floor(months);
+  const int64_t sum = date->month - 1 + (int64_t)whole, month = (sum % 12 + 12) % 12;
+  date->year += (sum - month) / 12;
+  date->month = (int)month + 1;
+  fg__date next = *date;
+  next.year += month == 11;
+  next.month = (int)((month + 1) % 12) + 1;
+  const int64_t days =
+      fg__calendar_day(calendar, next) - fg__calendar_day(calendar, *date);
+  return (months - whole) * (double)(days * SECONDS_PER_DAY);
+}
+
 bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
                  size_t size)
 {
@@ -104,23 +133,26 @@ bool fg__nc_date(double value, const char *units, const char *calendar, char *ou
       "January", "February", "March",     "April",   "May",      "June",
       "July",    "August",   "September", "October", "November", "December"};
   fg__calendar kind;
-  double unit;
+  double unit, offset;
+  int months;
   fg__date reference;
-  double offset;
   if (strcasecmp(units, FG__NC_ABSOLUTE) == 0)
     return write_absolute(out, size, value);
   if (!fg__calendar_find(&kind, calendar) ||
-      !read_reference(units, &unit, &reference, &offset))
+      !read_reference(units, &unit, &months, &reference, &offset) ||
+      !(fabs(value) * months <= LARGEST_DAYS / 31.0))
     return false;
-  const double elapsed = value * unit + offset;
-  if (!(fabs(elapsed) <= LARGEST_DAYS * (double)SECONDS_PER_DAY))
+  const bool is_climatology = reference.year == 0;
+  double elapsed =
+      months > 0 ? move_by_months(&reference, kind, value * months) : value * unit;
+  if (!(fabs(elapsed += offset) <= LARGEST_DAYS * (double)SECONDS_PER_DAY))
     return false;
   const int64_t seconds = llround(elapsed);
   const int64_t rest = (seconds % SECONDS_PER_DAY + SECONDS_PER_DAY) % SECONDS_PER_DAY;
   const fg__date d = fg__calendar_date(kind, fg__calendar_day(kind, reference) +
                                                  (seconds - rest) / SECONDS_PER_DAY);
   /* COARDS: a reference in year 0 marks a climatology, whose year means nothing */
-  if (reference.year == 0 && d.year <= 1)
+  if (is_climatology && d.year <= 1)
     snprintf(out, size, "%d %s (climatology)", d.day, month_name[d.month - 1]);
   else
     write_date(out, size, d, rest);
