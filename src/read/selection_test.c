@@ -72,6 +72,7 @@ static void dates_indices_and_values_of_times(void **state)
       {"1982-03-17/1982-03-17", "+ 2"},
       {":1982-02-15", "+ 0 1"},
       {"1982-01-16T12:00,1982-06", "+ 0 5"},
+      {"1982-01-16_12:00:00,1982-06", "+ 0 5"},
   };
   (void)state;
   expect(expected, sizeof expected / sizeof *expected, "time", monthly, MONTHLY);

@@ -76,7 +76,7 @@ static bool read_period(fg__period *out, const char **text, bool needs_day)
     if (!read_digits(text, 2, 1, 31, &day))
       return false;
   }
-  if (has_day && **text && strchr("Tt ", **text) && isdigit((unsigned char)(*text)[1])) {
+  if (has_day && **text && strchr("Tt _", **text) && isdigit((unsigned char)(*text)[1])) {
     ++*text;
     if (!read_clock(text, &second, &length))
       return false;
