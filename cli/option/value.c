@@ -297,11 +297,11 @@ static bool set_region(fg_map_options *out, const cli_command *command,
   double region[4];
   if (parse_numbers(region, 4, text) != 4 || !(fabs(region[0]) <= 360.0) ||
       !(fabs(region[1]) <= 540.0) || !(region[1] - region[0] <= 360.0) ||
-      !(fabs(region[2]) <= 90.0) || !(fabs(region[3]) <= 90.0) ||
-      !(region[2] < region[3]))
+      !(fabs(region[1] - region[0]) > 0.0) || !(fabs(region[2]) <= 90.0) ||
+      !(fabs(region[3]) <= 90.0) || !(region[2] < region[3]))
     return usage_error(command,
                        "--%s %s: WEST,EAST,SOUTH,NORTH is needed, in degrees, 360 of "
-                       "longitude at most, and south below north",
+                       "longitude at most, west apart from east, and south below north",
                        option->name, text);
   out->has_region = true;
   memcpy(out->region, region, sizeof region);

@@ -318,11 +318,11 @@ static fg_status check_options(fg_context *context, const fg_map_options *option
   const double *region = options->region, *center = options->center;
   if (options->has_region &&
       !(fabs(region[0]) <= 720.0 && fabs(region[1]) <= 720.0 &&
-        region[1] - region[0] <= 360.0 && fabs(region[2]) <= 90.0 &&
-        fabs(region[3]) <= 90.0 && region[2] < region[3]))
+        fabs(region[1] - region[0]) > 0.0 && region[1] - region[0] <= 360.0 &&
+        fabs(region[2]) <= 90.0 && fabs(region[3]) <= 90.0 && region[2] < region[3]))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "region %g,%g,%g,%g: west, east, south, north in degrees are needed, "
-                    "south below north, of 360 degrees at most",
+                    "west apart from east, south below north, of 360 degrees at most",
                     region[0], region[1], region[2], region[3]);
   if ((options->has_center && !(fabs(center[0]) <= 360.0)) ||
       (options->has_center_latitude && !(fabs(center[1]) <= 90.0)))

@@ -423,6 +423,7 @@ static void what_no_map_can_show_is_refused(void **state)
       {{.projection = "mollwiede"}, "is mollweide meant?"},
       {{.has_region = true, .region = {100, 120, 0, 20}}, "has no values"},
       {{.has_region = true, .region = {0, 10, 50, 50}}, "south below north"},
+      {{.has_region = true, .region = {10, 10, 30, 50}}, "west apart from east"},
       {{.has_center = true, .center = {(double)NAN, 0}}, "centre"},
       {{.samples = 3}, "3 samples"},
       {{.projection = "+proj=igh +lon_0=60"}, "it is torn near longitude"},
