@@ -44,8 +44,9 @@ enum { MOST_INK_STEPS = 12 };
 
 /* By how much the ink falls where its penalty rises by 1, about; the largest change of
  * the penalty at once; the share of it while icons still get fewer. */
-static const double INK_A_PENALTY = 0.4, MOST_PENALTY_STEP = 0.4, CHAIN_SHARE = 0.5;
-static const double INK_STEP = 0.1; /* icons move by so many lambda after the first */
+static const double INK_PER_PENALTY = 0.4, MOST_PENALTY_STEP = 0.4, CHAIN_SHARE = 0.5;
+static const double SMALL_STEP =
+    0.1; /* of icons, in lambda, once they are nearly right */
 
 /* The largest share of lines that may touch others, and how the penalty grows for it. */
 static const double MOST_TOUCHING = 0.002, TOUCH_GROWTH = 2.0;
@@ -134,7 +135,7 @@ static fg_status start(fg__place_descent *descent, int count, const fg_icons *cl
 
 static void adjust_penalty(fg__place_search *search, double share)
 {
-  const double change = (fg__place_ink(search) - WANTED_INK) / INK_A_PENALTY;
+  const double change = (fg__place_ink(search) - WANTED_INK) / INK_PER_PENALTY;
   const double step = fmax(fmin(change, MOST_PENALTY_STEP), -MOST_PENALTY_STEP);
   if (search->scale.free)
     search->scale.ink = fmax(search->scale.ink + share * step, 0.0);
@@ -155,7 +156,7 @@ static fg_status descend(fg__place_search *search, int sweeps, double step)
   for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && has_other_ink(search);
        ++n) {
     adjust_penalty(search, 1.0);
-    fg__place_reactivate_all(search, n > 0 ? INK_STEP : step);
+    fg__place_reactivate_all(search, n > 0 ? SMALL_STEP : step);
     status = fg__place_relax(search, 2);
   }
   return status;
@@ -170,8 +171,8 @@ static fg_status part_lines(fg__place_search *search)
   for (int n = 0; n < MOST_PARTINGS && status == FG_STATUS_OK && touching > MOST_TOUCHING;
        ++n) {
     search->scale.touch *= TOUCH_GROWTH;
-    fg__place_reactivate_all(search, INK_STEP);
-    status = descend(search, 2, INK_STEP);
+    fg__place_reactivate_all(search, SMALL_STEP);
+    status = descend(search, 2, SMALL_STEP);
     if (status == FG_STATUS_OK)
       status = fg__place_touching(search, &touching);
   }
