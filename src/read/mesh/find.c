@@ -215,11 +215,23 @@ static void check_storage(fg__nc_grid *grid, const fg__nc_file *file,
   }
 }
 
+/* Whether components on the same dimensions have positions of their own, those of their
+ * faces. Of other positions on these dimensions nothing says that they are the
+ * centres'. */
+static bool have_own_positions(const fg__nc_part *u, const fg__nc_part *v)
+{
+  return u->grid.axis[0].dimension == v->grid.axis[0].dimension &&
+         u->grid.axis[1].dimension == v->grid.axis[1].dimension && u->longitude &&
+         v->longitude && u->longitude != v->longitude;
+}
+
 static fg_status find_shift(bool *found, fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   *found = true;
   if (is_same_place(&mesh->part[0], &mesh->part[1]) && mesh->part[0].longitude)
     return FG_STATUS_OK; /* not staggered */
+  if (have_own_positions(&mesh->part[0], &mesh->part[1]))
+    return fg__nc_shift_find(found, mesh, file);
   if (!find_centres(mesh, file) && !find_centre_lines(mesh, file) &&
       (!mesh->part[0].longitude || !mesh->part[1].longitude)) {
     *found = false;

@@ -191,6 +191,40 @@ static void two_files_of_one_shape(void **state)
   }
 }
 
+/* The same in one file, on dimensions that both share with the corners. */
+static void one_file_of_one_shape(void **state)
+{
+  static const model_variable faces[] = {
+      LONLAT("lon_f", "lat_f", "y", "x", 0, 0, 0.5, 0.5),
+      LONLAT("lon_u", "lat_u", "y", "x", 0, 0, 0.0, 0.5),
+      LONLAT("lon_v", "lat_v", "y", "x", 0, 0, 0.5, 0.0),
+      {"u",
+       ALONG_I,
+       "y",
+       "x",
+       0,
+       0,
+       0.0,
+       0.5,
+       {"coordinates", "lon_u lat_u", "units", "m/s"}},
+      {"v",
+       ALONG_J,
+       "y",
+       "x",
+       0,
+       0,
+       0.5,
+       0.0,
+       {"coordinates", "lon_v lat_v", "units", "m/s"}},
+      {0}};
+  sample_file *f = *state;
+  write_model(f, faces);
+  fg_field *field = read_with(f, NULL);
+  assert_flow(field, 400);
+  fg_field_destroy(field);
+  assert_frame(f, "turned by its positions (a staggered grid)");
+}
+
 /* NEMO: levels, too, have a name of their own in each file. */
 static void levels_in_two_files(void **state)
 {
@@ -435,6 +469,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(models_are_read),
       CASE(two_files_of_one_shape),
+      CASE(one_file_of_one_shape),
       CASE(masks_keep_land_out),
       CASE(frames_may_be_given),
       CASE(seams_close),

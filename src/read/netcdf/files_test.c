@@ -107,6 +107,106 @@ static void axes_may_lie_in_a_file_of_the_mesh(void **state)
   }
 }
 
+enum { FACE_COLUMNS = 16, FACE_ROWS = 14, FACES = FACE_COLUMNS * FACE_ROWS };
+
+/* A component of a solid rotation about 5 west, 47 north on a grid of 2 degrees, where
+ * its sample (i, j) lies at (i + right, j + up) from 21 west, 33 north. plane: whether
+ * longitude and latitude are arrays of two dimensions. */
+static void make_component(sample_file *f, int k, double right, double up, bool plane)
+{
+  static const char *const names[2][2] = {{"nav_lat", "nav_lon"}, {"y", "x"}};
+  static const char *const units[] = {"degrees_north", "degrees_east"};
+  static const char *const standard[] = {"sea_water_x_velocity", "sea_water_y_velocity"};
+  double at[2][FACES], line[2][FACES], speed[FACES];
+  for (int n = 0; n < FACES; ++n) {
+    at[0][n] = 33.0 + 2.0 * (n / FACE_COLUMNS + up);
+    at[1][n] = -21.0 + 2.0 * (n % FACE_COLUMNS + right);
+    line[0][n] = 33.0 + 2.0 * (n + up);
+    line[1][n] = -21.0 + 2.0 * (n + right);
+    speed[n] = k == 0 ? -0.05 * (at[0][n] - 47.0) : 0.05 * (at[1][n] + 5.0);
+  }
+  sample_begin(f, 0);
+  const int all[2] = {sample_dimension(f, "y", FACE_ROWS),
+                      sample_dimension(f, "x", FACE_COLUMNS)};
+  for (int c = 0; c < 2; ++c) {
+    const int id = sample_variable(f, names[plane ? 0 : 1][c], NC_DOUBLE, plane ? 2 : 1,
+                                   plane ? all : &all[c]);
+    sample_text(f, id, "units", units[c]);
+    sample_put(f, id, plane ? at[c] : line[c]);
+  }
+  const int id = sample_variable(f, k == 0 ? "uo" : "vo", NC_DOUBLE, 2, all);
+  sample_text(f, id, "units", "m/s");
+  sample_text(f, id, "standard_name", standard[k]);
+  if (plane)
+    sample_text(f, id, "coordinates", "nav_lat nav_lon");
+  sample_put(f, id, speed);
+  sample_end(f);
+}
+
+/* The rotation's components are linear in the coordinates, so what differs from them is
+ * at a wrong place: half a cell is 0.05. */
+static void assert_rotation(const fg_field *field, double tolerance)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  int found = 0;
+  assert_int_equal(a->scale, FG_SCALE_GEO);
+  for (int j = 0; j < a->size[1]; ++j)
+    for (int i = 0; i < a->size[0]; ++i) {
+      const int n = j * a->size[0] + i;
+      if (isnan(a->velocity[0][n]))
+        continue;
+      ++found;
+      const double u = -0.05 * (a->axis[1][j] - 47.0), v = 0.05 * (a->axis[0][i] + 5.0);
+      assert_true(fabs((double)a->velocity[0][n] - u) < tolerance);
+      assert_true(fabs((double)a->velocity[1][n] - v) < tolerance);
+    }
+  assert_true(found > FACES / 2);
+}
+
+/* NEMO's grid_U and grid_V on a regular grid: longitudes and latitudes could be axes, but
+ * each component has those of its own faces. */
+static void components_on_faces_in_two_files_meet_at_the_centres(void **state)
+{
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  for (int plane = 0; plane < 2; ++plane)
+    for (int side = -1; side <= 1; side += 2) {
+      const fg_read_options options = {.vars = "uo,vo", .vars_from = second.path};
+      make_component(f, 0, 0.5 * side, 0.0, plane == 1);
+      make_component(&second, 1, 0.0, 0.5 * side, plane == 1);
+      fg_field *field = read_with(f, &options);
+      assert_rotation(field, 5e-3);
+      fg_field_destroy(field);
+      fg_inventory *inventory;
+      assert_int_equal(
+          fg_inventory_read_chosen(&inventory, f->context, f->path, &options),
+          FG_STATUS_OK);
+      const char *frame = fg_inventory_vector_at(inventory, 0)->frame;
+      assert_non_null(frame);
+      assert_non_null(strstr(frame, "along the grid, turned by its positions"));
+      fg_inventory_destroy(inventory);
+    }
+  unlink(second.path);
+}
+
+/* Where both have the same places, up to rounding, these are axes. */
+static void components_at_the_same_places_in_two_files_stay_on_axes(void **state)
+{
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  const fg_read_options options = {.vars = "uo,vo", .vars_from = second.path};
+  make_component(f, 0, 0.0, 0.0, true);
+  make_component(&second, 1, 1e-6, -1e-6, true);
+  fg_field *field = read_with(f, &options);
+  assert_int_equal(fg_field_contents(field)->size[0], FACE_COLUMNS);
+  assert_int_equal(fg_field_contents(field)->size[1], FACE_ROWS);
+  assert_rotation(field, 1e-6);
+  fg_field_destroy(field);
+  unlink(second.path);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
@@ -114,6 +214,8 @@ int main(void)
       CASE(the_other_component_may_lie_in_a_second_file),
       CASE(a_second_file_is_of_use_or_refused),
       CASE(axes_may_lie_in_a_file_of_the_mesh),
+      CASE(components_on_faces_in_two_files_meet_at_the_centres),
+      CASE(components_at_the_same_places_in_two_files_stay_on_axes),
   };
   return cmocka_run_group_tests_name("read/netcdf/files", tests, NULL, NULL);
 }

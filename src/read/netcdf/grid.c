@@ -129,9 +129,32 @@ const fg__nc_variable *fg__nc_axis_coordinate(const fg__nc_file *file,
   return NULL;
 }
 
-static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
-                           const fg__nc_variable *v)
+/* Two-dimensional longitudes and latitudes as axes, where both components have the same;
+ * where each has its own the grid is off_axes, as curvilinear ones are. */
+static fg_status read_plane(fg__nc_grid *grid, const fg__nc_file *file,
+                            const fg__nc_pair *pair, bool *found)
 {
+  const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
+  bool apart = false;
+  if (grid->scale == FG_SCALE_AUTO || grid->scale == FG_SCALE_GEO) {
+    const fg_status status = fg__nc_plane_compare(&apart, grid, file, u, v);
+    if (status != FG_STATUS_OK)
+      return status;
+  }
+  if (!apart)
+    return fg__nc_plane_find(grid, file, u, found);
+  grid->off_axes = true;
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' and '%.60s' have longitudes and latitudes of their own: a "
+                   "staggered grid",
+                   u->plain_name, v->plain_name);
+  return FG_STATUS_OK;
+}
+
+static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair)
+{
+  const fg__nc_variable *v = pair->component[0];
   const fg__nc_variable *coordinate[2];
   bool both = true;
   for (int k = 0; k < 2; ++k) {
@@ -144,7 +167,7 @@ static fg_status read_axes(fg__nc_grid *grid, const fg__nc_file *file,
                        fg__nc_names_plane(grid, file, v);
   if (!both || nominal) {
     bool found = false;
-    fg_status status = fg__nc_plane_find(grid, file, v, &found);
+    fg_status status = read_plane(grid, file, pair, &found);
     if (status != FG_STATUS_OK || found || !is_usable(grid))
       return status;
   }
@@ -275,7 +298,7 @@ static fg_status find_on_axes(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_check_shapes(grid, file, u, pair->component[1]);
   if (!is_usable(grid))
     return FG_STATUS_OK;
-  fg_status status = read_axes(grid, file, u);
+  fg_status status = read_axes(grid, file, pair);
   if (status != FG_STATUS_OK || !is_usable(grid))
     return status;
   set_positions(grid, u);

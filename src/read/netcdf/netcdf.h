@@ -309,6 +309,13 @@ fg_status fg__nc_axis_count(fg__nc_grid *grid, const fg__nc_file *file, int k);
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
                             const fg__nc_variable *variable, bool *found);
 
+/* Whether two components on equal dimensions have two-dimensional longitudes or latitudes
+ * of their own that are not at the same places: those of faces (Arakawa's C grid).
+ * MEMORY, FILE_ACCESS. */
+fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
+                               const fg__nc_file *file, const fg__nc_variable *u,
+                               const fg__nc_variable *v);
+
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
 

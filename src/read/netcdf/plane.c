@@ -12,6 +12,9 @@
  * those of float are 1.5e-5 degrees. */
 static const double STRAIGHT_TOLERANCE = 0.01;
 
+/* Positions nearer than this fraction of a cell coincide. */
+static const double SAME_PLACE = 0.1;
+
 typedef struct plane {
   const fg__nc_variable *variable;
   double *value; /* the file's order: [first dimension][second dimension] */
@@ -135,6 +138,79 @@ static int direction_of(const plane *p, size_t n0, size_t n1, bool longitude)
       return along;
   }
   return -1;
+}
+
+/* The mean difference of neighbours along the first row or the first column, whichever is
+ * larger. */
+static double step_of(const plane *p, size_t n0, size_t n1, bool longitude)
+{
+  double mean[2] = {0.0, 0.0};
+  for (int along = 0; along < 2; ++along) {
+    const size_t n = along == 0 ? n0 : n1, step = along == 0 ? n1 : 1;
+    for (size_t i = 1; i < n; ++i) {
+      const double d = p->value[i * step] - p->value[(i - 1) * step];
+      mean[along] += fabs(longitude ? remainder(d, 360.0) : d) / (double)(n - 1);
+    }
+  }
+  return fmax(mean[0], mean[1]);
+}
+
+/* Whether most values of two coordinates differ by a part of a cell; turned: the second
+ * has its dimensions in the other order. Values that are no numbers do not count. */
+static bool most_differ(const plane of[2], size_t n0, size_t n1, bool turned,
+                        bool longitude)
+{
+  const double limit = SAME_PLACE * step_of(&of[0], n0, n1, longitude);
+  size_t differ = 0, equal = 0;
+  for (size_t i = 0; i < n0; ++i)
+    for (size_t j = 0; j < n1; ++j) {
+      double d = of[0].value[i * n1 + j] - of[1].value[turned ? j * n0 + i : i * n1 + j];
+      d = fabs(longitude ? remainder(d, 360.0) : d);
+      differ += d > limit;
+      equal += d <= limit;
+    }
+  return differ > equal;
+}
+
+static fg_status compare_planes(bool *apart, const fg__nc_file *file, plane of[2],
+                                bool turned, bool longitude)
+{
+  const int *dimension = last_dimensions(of[0].variable);
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
+    status = read_plane(&of[k], file);
+  if (status == FG_STATUS_OK)
+    *apart = most_differ(of, file->dimensions[dimension[0]].length,
+                         file->dimensions[dimension[1]].length, turned, longitude);
+  free(of[0].value);
+  free(of[1].value);
+  return status;
+}
+
+fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
+                               const fg__nc_file *file, const fg__nc_variable *u,
+                               const fg__nc_variable *v)
+{
+  fg_status status = FG_STATUS_OK;
+  fg__nc_grid of_v = {.dimension = 2}; /* in its own file its dimensions are others */
+  for (int k = 0; k < 2; ++k)
+    for (int p = 0; p < u->rank; ++p)
+      if (u->dimension[p] == grid->axis[k].dimension)
+        of_v.axis[k].dimension = v->dimension[p];
+  *apart = false;
+  for (int role = FG__NC_X; role <= FG__NC_Y && !*apart && status == FG_STATUS_OK;
+       ++role) {
+    plane of[2] = {{fg__nc_plane_coordinate(grid, file, u, (fg__nc_role)role), NULL},
+                   {fg__nc_plane_coordinate(&of_v, file, v, (fg__nc_role)role), NULL}};
+    if (!of[0].variable || !of[1].variable || of[0].variable == of[1].variable)
+      continue;
+    const int x = grid->axis[0].dimension, x_of_v = of_v.axis[0].dimension;
+    const bool turned =
+        fg__nc_alike_dimension(file, last_dimensions(of[0].variable)[0], x) !=
+        fg__nc_alike_dimension(file, last_dimensions(of[1].variable)[0], x_of_v);
+    status = compare_planes(apart, file, of, turned, role == FG__NC_X);
+  }
+  return status;
 }
 
 fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
