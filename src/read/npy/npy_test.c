@@ -72,7 +72,7 @@ static void choices_that_do_not_fit_are_refused(void **state)
       {"seed-axes.npz", "no column \"w\"", {.vars = "u,w"}},
       {"seed-axes.npz", "array \"x\" of 4 numbers does not fit \"u\"", {.vars = "u,x"}},
       {"seed-axes.npz", "no vectors among its arrays: x (4)", {.vars = "x"}},
-      {"seed-speed-direction.npz",
+      {"fault-speed-direction.npz",
        "wind_speed and wind_direction are a speed and a direction",
        {0}},
       {"seed-transposed-times.npz", "time 2 is asked for, of 2", {.time = 2}},
