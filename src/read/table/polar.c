@@ -95,7 +95,7 @@ static fg_status fail_half(const fg__table *table, int half, int other, bool dir
            table->path, table->column[half].name, direction ? "direction" : "speed",
            table->column[other].name, direction ? "speed" : "direction");
   if (missing >= 0)
-    fg__hint(table->context, "a speed and its direction: --vars %s,%s",
+    fg__hint(table->context, "name a speed and its direction: --vars %s,%s",
              table->column[speed].name, table->column[way].name);
   else
     fg__hint(table->context, "name a speed and its direction, or two components");
