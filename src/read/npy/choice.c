@@ -116,9 +116,24 @@ static void take_places(fg__npy_choice *out, fg__npy_file *file,
     out->position[k] = array_at(file, named->position[k]);
 }
 
+static fg_status fail_polar(const fg__npy_file *file, const fg__table_vector *named)
+{
+  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+           "%s: %s and %s are a speed and a direction, which are read from tables only",
+           file->path, file->array[named->velocity[0]].name,
+           file->array[named->velocity[1]].name);
+  fg__hint(file->context,
+           "save u = %sspeed * sin(direction) and v = %sspeed * "
+           "cos(direction)",
+           named->from ? "-" : "", named->from ? "-" : "");
+  return FG_STATUS_UNSUPPORTED;
+}
+
 static fg_status choose_pair(fg__npy_choice *out, fg__npy_file *file,
                              const fg__table_vector *named)
 {
+  if (named->polar)
+    return fail_polar(file, named);
   *out = (fg__npy_choice){
       .component_axis = -1, .dimension = named->dimension, .found_by = named->found_by};
   for (int k = 0; k < named->dimension && k < 3; ++k) {

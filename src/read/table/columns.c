@@ -57,7 +57,7 @@ static int find_listed(const fg__table *table, const char *list)
   return -1;
 }
 
-static int find_plain(const fg__table *table, const char *plain)
+int fg__table_find_plain(const fg__table *table, const char *plain)
 {
   for (int c = 0; c < table->columns; ++c)
     if (strcmp(table->column[c].plain, plain) == 0)
@@ -65,7 +65,7 @@ static int find_plain(const fg__table *table, const char *plain)
   return -1;
 }
 
-static bool has_word(const char *plain, const char *word)
+bool fg__table_has_word(const char *plain, const char *word)
 {
   const size_t length = strlen(word);
   for (const char *at = plain; (at = strstr(at, word)) != NULL; ++at)
@@ -77,7 +77,7 @@ static bool has_word(const char *plain, const char *word)
 static bool is_other(const char *plain)
 {
   for (size_t i = 0; i < sizeof OTHER / sizeof *OTHER; ++i)
-    if (has_word(plain, OTHER[i]))
+    if (fg__table_has_word(plain, OTHER[i]))
       return true;
   return false;
 }
@@ -98,7 +98,7 @@ static int find_like(const fg__table *table, const char *plain, const char *at,
   char name[2 * FG__TABLE_NAME];
   snprintf(name, sizeof name, "%.*s%s%s", (int)(at - plain), plain, other,
            at + strlen(word));
-  return find_plain(table, name);
+  return fg__table_find_plain(table, name);
 }
 
 /* The places of points; the first two or three columns where none have names. */
@@ -117,8 +117,8 @@ static void find_time_and_validity(fg__table_vector *out, const fg__table *table
 {
   out->valid[0] = out->valid[1] = out->mask = -1;
   out->valid[0] = find_listed(table, "|chc|vector_type|isvalid|is_valid|flags|");
-  if (find_plain(table, "flags") >= 0 || table->columns == 5)
-    out->valid[1] = find_plain(table, "mask");
+  if (fg__table_find_plain(table, "flags") >= 0 || table->columns == 5)
+    out->valid[1] = fg__table_find_plain(table, "mask");
   out->time =
       find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|date|"
                          "datetime|date_time|timestamp|time_utc|date_utc|valid_time|");
@@ -210,30 +210,15 @@ static void find_pairs(fg__table_vector *list, int *count, const fg__table *tabl
 static void find_polar(fg__table_vector *list, int *count, const fg__table *table)
 {
   for (int c = 0; c < table->columns; ++c) {
-    const char *plain = table->column[c].plain;
-    const char *at = strstr(plain, "dir");
-    if (!at)
-      at = strstr(plain, "drct"); /* as METAR archives have it */
-    if (!at || (at != plain && at[-1] != '_' && strncmp(plain, "wdir", 4) != 0 &&
-                strncmp(plain, "winddir", 7) != 0))
-      continue;
-    const char *const speeds[] = {"speed", "spd", "vel", "velocity", "sknt"};
-    int speed = -1;
-    for (size_t s = 0; s < sizeof speeds / sizeof *speeds && speed < 0; ++s) {
-      char name[2 * FG__TABLE_NAME];
-      snprintf(name, sizeof name, "%.*s%s", (int)(at - plain), plain, speeds[s]);
-      speed = find_plain(table, name);
-    }
+    const int speed =
+        fg__table_is_direction(table, c) ? fg__table_speed_of(table, c) : -1;
     const int velocity[3] = {speed, c, -1}, before = *count;
     if (speed >= 0)
       add(list, count, table, velocity, "speed and direction");
-    if (*count > before && !list[before].geographic) {
+    if (*count > before && !list[before].geographic)
       *count = before; /* clockwise from north, or against it from x: who knows */
-    } else if (*count > before) {
-      list[before].polar = true;
-      list[before].from = strstr(plain, "wind") != NULL || plain[0] == 'w' ||
-                          has_word(plain, "from") || strncmp(at, "drct", 4) == 0;
-    }
+    else if (*count > before)
+      fg__table_set_polar(&list[before], table);
   }
 }
 
@@ -252,9 +237,9 @@ int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *
   }
   for (size_t i = 0; i < sizeof VELOCITY_NAMES / sizeof *VELOCITY_NAMES && count == 0;
        ++i) {
-    const int velocity[3] = {find_plain(table, VELOCITY_NAMES[i][0]),
-                             find_plain(table, VELOCITY_NAMES[i][1]),
-                             find_plain(table, VELOCITY_NAMES[i][2])};
+    const int velocity[3] = {fg__table_find_plain(table, VELOCITY_NAMES[i][0]),
+                             fg__table_find_plain(table, VELOCITY_NAMES[i][1]),
+                             fg__table_find_plain(table, VELOCITY_NAMES[i][2])};
     if (velocity[0] >= 0 && velocity[1] >= 0)
       add(out, &count, table, velocity, "names");
     else
@@ -274,7 +259,7 @@ int fg__table_find(const fg__table *table, const char *name)
   for (int c = 0; c < table->columns; ++c)
     if (strcmp(table->column[c].name, name) == 0)
       return c;
-  const int plain = wanted.plain[0] ? find_plain(table, wanted.plain) : -1;
+  const int plain = wanted.plain[0] ? fg__table_find_plain(table, wanted.plain) : -1;
   char *end;
   const long number = strtol(name, &end, 10);
   if (plain < 0 && *end == '\0' && number >= 1 && number <= table->columns)
@@ -301,12 +286,14 @@ static fg_status fail_unknown(const fg__table *table, const char *name)
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status choose_named(fg__table_vector *out, const fg__table *table,
-                              const char *vars)
+enum { MOST_NAMED = 6 };
+
+/* The columns that vars names; *count of them, of which MOST_NAMED are kept. */
+static fg_status find_named(int column[MOST_NAMED], int *count, const fg__table *table,
+                            const char *vars)
 {
-  enum { MOST = 6 };
   char *copy = fg__copy_text(vars);
-  int column[MOST] = {0}, count = 0;
+  *count = 0;
   if (!copy)
     return fg__fail_memory(table->context, "names of columns", strlen(vars) + 1);
   fg_status status = FG_STATUS_OK;
@@ -317,14 +304,22 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
     const int found = fg__table_find(table, at);
     if (found < 0)
       status = fail_unknown(table, at);
-    else if (count++ < MOST)
-      column[count - 1] = found;
+    else if ((*count)++ < MOST_NAMED)
+      column[*count - 1] = found;
     at = comma;
   }
   free(copy);
+  return status;
+}
+
+static fg_status choose_named(fg__table_vector *out, const fg__table *table,
+                              const fg_read_options *options)
+{
+  int column[MOST_NAMED] = {0}, count;
+  fg_status status = find_named(column, &count, table, options->vars);
   if (status != FG_STATUS_OK)
     return status;
-  if (count < 2 || count > MOST || count == 5)
+  if (count < 2 || count > MOST_NAMED || count == 5)
     return fg__fail(table->context, FG_STATUS_ARGUMENT,
                     "%s: %d columns named; 2 or 3 are a velocity, 4 or 6 places and "
                     "velocity",
@@ -346,6 +341,10 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
     out->geographic = is_one_of(GLOBE[0], table->column[column[0]].plain) &&
                       is_one_of(GLOBE[1], table->column[column[1]].plain);
   settle_level(out);
+  status = fg__table_settle_polar(out, table,
+                                  out->geographic || options->scale == FG_SCALE_GEO);
+  if (status != FG_STATUS_OK)
+    return status;
   if (table->placeless || (out->position[0] >= 0 && out->position[1] >= 0 &&
                            (out->dimension == 2 || out->position[2] >= 0)))
     return FG_STATUS_OK;
@@ -378,7 +377,7 @@ fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
   fg__table_vector found[FG__TABLE_VECTORS];
   fg_status status = FG_STATUS_OK;
   if (options->vars) {
-    status = choose_named(out, table, options->vars);
+    status = choose_named(out, table, options);
   } else {
     const int count = fg__table_vectors(found, table);
     char names[512];

@@ -9,7 +9,9 @@
 enum {
   LOOKED_AT = 64, /* lines */
   SHORT_FILE = 1 << 16,
-  LEAST = 4 /* columns: a place and a velocity */
+  LEAST = 4,      /* columns: a place and a velocity */
+  ROWS_TRIED = 4, /* after names; one may have units */
+  SHOWN = 40      /* bytes of a text in a message */
 };
 
 /* Where several fit a line alike, the first is meant. */
@@ -138,6 +140,108 @@ static bool has_points(const fg__table *table, const fg__table_line *lines, int 
   return 2 * points >= rows;
 }
 
+/* Whether text is a number but for marks of thousands or a hemisphere: 1.000,5 or 51.2N.
+ */
+static bool is_nearly_number(const fg__table_field *field)
+{
+  bool has_digit = false;
+  for (size_t i = 0; i < field->size; ++i) {
+    const char c = field->text[i];
+    const bool sign = i == 0 && (c == '+' || c == '-');
+    const bool hemisphere = i + 1 == field->size && c && strchr("NSEWnsew", c);
+    const bool digit = c >= '0' && c <= '9';
+    const bool other = (c && strchr(".,' ", c)) || (c & 0x80); /* as a degree's sign */
+    if (!sign && !hemisphere && !digit && !other)
+      return false;
+    has_digit = has_digit || digit;
+  }
+  return has_digit;
+}
+
+/* The style in which both lines have so many fields and this one the most numbers, at
+ * least one; -1: none. */
+static int style_of_row(const fg__table_line *names, const fg__table_line *row,
+                        int columns)
+{
+  int best = -1, most = 0;
+  for (int s = 0; s < STYLE_COUNT; ++s) {
+    int none, numbers;
+    if (count_fields(&none, names, STYLES[s]) == columns &&
+        count_fields(&numbers, row, STYLES[s]) == columns && numbers > most) {
+      best = s;
+      most = numbers;
+    }
+  }
+  return best;
+}
+
+/* The field of that number, from 0. */
+static fg__table_field field_at(const fg__table_line *line, fg__table_style style,
+                                int column)
+{
+  fg__table_field field = {"", 0};
+  size_t at = 0;
+  for (int c = 0; c <= column && fg__table_split(&field, line, &at, style); ++c)
+    ;
+  return field;
+}
+
+/* The column of a row whose text is no number: nearly one, or the first; -1: none. */
+static int find_no_number(const fg__table_line *row, fg__table_style style)
+{
+  fg__table_field field;
+  int first = -1, column = 0;
+  for (size_t at = 0; fg__table_split(&field, row, &at, style); ++column) {
+    double value;
+    if (fg__table_number(&value, &field, style.decimal) != FG__TABLE_NO_NUMBER)
+      continue;
+    if (is_nearly_number(&field))
+      return column;
+    first = first < 0 ? column : first;
+  }
+  return first;
+}
+
+static void hint_at_number(const fg__table *table, const fg__table_field *field)
+{
+  const char last = field->size > 0 ? field->text[field->size - 1] : '\0';
+  if (!is_nearly_number(field))
+    fg__hint(table->context, "a line a point, with %d columns at least: x, y, u, v",
+             LEAST);
+  else if (last >= '0' && last <= '9')
+    fg__hint(table->context,
+             "numbers have a decimal point or comma and no marks of thousands");
+  else
+    fg__hint(table->context, "write degrees as numbers, west and south below 0");
+}
+
+/* Tells which text in the first row with a number is none; false where no such row is
+ * soon after the names. */
+static bool fail_row(const fg__table *table, const fg__table_line *names,
+                     fg__table_cursor cursor, int columns)
+{
+  fg__table_line row;
+  int style = -1;
+  for (int rows = 0; style < 0 && rows < ROWS_TRIED && fg__table_next(&row, &cursor);)
+    if (!fg__table_is_blank(&row) && !fg__table_is_comment(&row)) {
+      style = style_of_row(names, &row, columns);
+      ++rows;
+    }
+  const int column = style < 0 ? -1 : find_no_number(&row, STYLES[style]);
+  if (column < 0)
+    return false;
+  const fg__table_field name = field_at(names, STYLES[style], column),
+                        field = field_at(&row, STYLES[style], column);
+  fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+           "%s: is text, but no table of points: line %d, column %d (%.*s): \"%.*s\" is "
+           "no number",
+           table->path, row.number, column + 1,
+           (int)(name.size < SHOWN ? name.size : SHOWN), name.text,
+           (int)(field.size < SHOWN ? field.size : SHOWN), field.text);
+  hint_at_number(table, &field);
+  return true;
+}
+
 static fg_status fail_no_table(const fg__table *table, const fg__source *source)
 {
   fg__table_cursor cursor = fg__table_begin(source);
@@ -154,6 +258,8 @@ static fg_status fail_no_table(const fg__table *table, const fg__source *source)
       numbers = found;
     }
   }
+  if (best >= LEAST && numbers == 0 && fail_row(table, &line, cursor, best))
+    return FG_STATUS_FILE_FORMAT;
   fg__table_line next;
   bool more = false;
   while (!more && fg__table_next(&next, &cursor))

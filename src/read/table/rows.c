@@ -17,6 +17,7 @@ enum {
   MASK = 8,
   TIME = 9,
   LEVEL = 10,
+  MOST_DEGREES = 720, /* of a direction; two turns */
   STOP_EVERY = 1 << 16
 };
 
@@ -153,13 +154,16 @@ static bool is_valid(const row_reader *r)
   return r->vector->mask < 0 || r->value[MASK] > 0.0;
 }
 
-/* Speed and direction, in degrees clockwise from north, as east and north. */
+/* Speed and direction, in degrees clockwise from north, as east and north. A calm has no
+ * direction. Codes for a missing or variable one, -999 or 990, are no angles. */
 static void turn_polar(row_reader *r)
 {
-  const double angle = r->value[VELOCITY + 1] * (3.14159265358979323846 / 180.0);
-  const double speed = r->vector->from ? -r->value[VELOCITY] : r->value[VELOCITY];
-  r->value[VELOCITY] = speed * sin(angle);
-  r->value[VELOCITY + 1] = speed == 0.0 ? 0.0 : speed * cos(angle);
+  const double speed = r->value[VELOCITY], degrees = r->value[VELOCITY + 1];
+  const double angle = degrees * (3.14159265358979323846 / 180.0);
+  const double along = r->vector->from ? -speed : speed;
+  const bool known = speed >= 0.0 && fabs(degrees) <= MOST_DEGREES;
+  r->value[VELOCITY] = speed == 0.0 ? 0.0 : known ? along * sin(angle) : (double)NAN;
+  r->value[VELOCITY + 1] = speed == 0.0 ? 0.0 : known ? along * cos(angle) : (double)NAN;
 }
 
 typedef struct growth {

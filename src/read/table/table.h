@@ -130,6 +130,23 @@ fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
 /* The column of that name or number; -1: none. */
 int fg__table_find(const fg__table *table, const char *name);
 
+/* The column whose plain name this is; -1: none. */
+int fg__table_find_plain(const fg__table *table, const char *plain);
+
+/* Whether a plain name has that word between its ends and _. */
+bool fg__table_has_word(const char *plain, const char *word);
+
+/* polar.c. Whether a column is a direction, the column of its speed (-1: none), and what
+ * a vector of both is. */
+bool fg__table_is_direction(const fg__table *table, int column);
+int fg__table_speed_of(const fg__table *table, int direction);
+void fg__table_set_polar(fg__table_vector *vector, const fg__table *table);
+
+/* Makes a named pair of a speed and a direction, in either order, polar. ARGUMENT (only
+ * one of them is such), UNSUPPORTED (not on the globe). */
+fg_status fg__table_settle_polar(fg__table_vector *vector, const fg__table *table,
+                                 bool on_globe);
+
 /* rows.c. Reads a vector's rows. FILE_FORMAT (naming line and column), MEMORY. */
 fg_status fg__table_rows(fg__scatter *out, const fg__table *table,
                          const fg__table_vector *vector);
