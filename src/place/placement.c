@@ -134,7 +134,12 @@ static bool are_placed(const fg_icons *icons)
 fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
   fg__place_descent *now = &placement->now;
-  fg_status status = fg__descent_first(now, count, NULL, &fg__place_first_schedule);
+  fg__descent_clear(now);
+  fg_status status = fg__place_best(now, count, NULL, true);
+  if (status != FG_STATUS_ARGUMENT)
+    return status;
+  fg_context_clear(now->context); /* fewer fit */
+  status = fg__descent_first(now, count, NULL, &fg__place_first_schedule);
   return status == FG_STATUS_OK ? fg__descent_refine(now) : status;
 }
 

@@ -7,8 +7,8 @@
 fg_context *fg__placement_context(const fg_placement *placement);
 const fg_field *fg__placement_field(const fg_placement *placement);
 
-/* Places icons from an even start, whatever there was before, fewer where no more fit.
- * MEMORY, STOPPED. */
+/* Places icons from an even start as fg_placement_place does, whatever there was before;
+ * fewer where no more fit. MEMORY, STOPPED. */
 fg_status fg__placement_begin_again(fg_placement *placement, int count);
 
 /* As fg_placement_resume, without those icons whose lines find no room on this field;

@@ -60,6 +60,29 @@ static void the_fewest_within_an_error_are_found(void **state)
   fg_field_destroy(field);
 }
 
+/* Few arrows are the best of several placements, in the search for their number, too. */
+static void the_number_is_that_of_a_run(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, swirl);
+  for (int degrees = 9; degrees < 20; degrees += 3) {
+    fg_placement *placement = placement_of(*state, field, FG_EFFORT_NORMAL);
+    fg_icons *found = NULL;
+    int count = 0;
+    assert_int_equal(fg_placement_within(placement, degrees, 500, &count), FG_STATUS_OK);
+    assert_int_equal(fg_placement_icons(&found, placement), FG_STATUS_OK);
+    fg_placement_destroy(placement);
+    placement = placement_of(*state, field, FG_EFFORT_NORMAL);
+    fg_icons *icons = place(*state, placement, count);
+    assert_true(fabs(error_of(*state, field, icons) - error_of(*state, field, found)) <=
+                0.0);
+    assert_true(error_of(*state, field, icons) <= degrees);
+    fg_icons_destroy(icons);
+    fg_icons_destroy(found);
+    fg_placement_destroy(placement);
+  }
+  fg_field_destroy(field);
+}
+
 static void what_can_not_be_reached_is_refused(void **state)
 {
   fg_field *field = field_of(*state, &PLAIN, swirl);
@@ -88,6 +111,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(what_does_not_fit_is_refused_with_the_number_that_does),
       CASE(the_fewest_within_an_error_are_found),
+      CASE(the_number_is_that_of_a_run),
       CASE(what_can_not_be_reached_is_refused),
   };
   return cmocka_run_group_tests_name("place/within", tests, NULL, NULL);
