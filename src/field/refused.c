@@ -7,6 +7,8 @@ const double fg__field_largest_speed = 1e15;
 static const float CODES[] = {-999.0F,  -9999.0F, -99999.0F, -999.9F,
                               -9999.9F, -999.99F, -32767.0F, -32768.0F,
                               999.9F,   9999.0F,  9999.9F,   99999.0F};
+static const char declare[] =
+    "declare it as missing (NetCDF: _FillValue), or put NaN in its place";
 static const float SMALLEST_CODE = 999.0F; /* in size */
 
 bool fg__is_missing_code(const float *const velocity[3], int dimension, size_t i)
@@ -20,6 +22,23 @@ bool fg__is_missing_code(const float *const velocity[3], int dimension, size_t i
   for (int k = 1; k < dimension; ++k)
     is_code = is_code && velocity[k][i] <= first && velocity[k][i] >= first;
   return is_code;
+}
+
+fg_status fg__refuse_missing_codes(fg_context *context, const char *path,
+                                   float *const velocity[2], size_t count)
+{
+  const float *const both[3] = {velocity[0], velocity[1], NULL};
+  for (size_t i = 0; i < count; ++i) {
+    if (!fg__is_missing_code(both, 2, i))
+      continue;
+    fg__fail(context, FG_STATUS_FILE_FORMAT,
+             "%s: both components are %g at a sample, which stands for missing data in "
+             "many files",
+             path, (double)velocity[0][i]);
+    fg__hint(context, "%s", declare);
+    return FG_STATUS_FILE_FORMAT;
+  }
+  return FG_STATUS_OK;
 }
 
 enum { PLACE_BYTES = 80 };

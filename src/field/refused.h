@@ -13,6 +13,11 @@ extern const double fg__field_largest_speed;
  * missing data in many files: -999, -9999, ... */
 bool fg__is_missing_code(const float *const velocity[3], int dimension, size_t i);
 
+/* Refuses samples of which some are such codes in both components, before they are
+ * resampled: "PATH: ...". FILE_FORMAT. */
+fg_status fg__refuse_missing_codes(fg_context *context, const char *path,
+                                   float *const velocity[2], size_t count);
+
 /* Refuses a sample; `i` is its index among those held. ARGUMENT. */
 fg_status fg__field_fail_speed(const fg_field *field, fg_context *context, int k,
                                double value, size_t i);

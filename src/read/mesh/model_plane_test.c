@@ -142,6 +142,22 @@ static void wind_is_turned_to_the_models_plane(void **state)
   }
 }
 
+static void codes_of_missing_data_are_refused(void **state)
+{
+  static const double code = -9999.0;
+  static const size_t at[2] = {4, 7};
+  sample_file *f = *state;
+  write_model(f, &MODELS[0], MODELS[0].meridian);
+  int id, variable;
+  nc_must(nc_open(f->path, NC_WRITE, &id));
+  for (int k = 0; k < 2; ++k) {
+    nc_must(nc_inq_varid(id, k ? "V10" : "U10", &variable));
+    nc_must(nc_put_var1_double(id, variable, at, &code));
+  }
+  nc_must(nc_close(id));
+  refuse_with(f, NULL, FG_STATUS_FILE_FORMAT, "both components are -9999");
+}
+
 static void a_third_component_is_none_of_a_plane(void **state)
 {
   sample_file *f = *state;
@@ -208,6 +224,7 @@ int main(void)
       CASE(other_maps_may_be_chosen),
       CASE(other_grids_planes_are_not_taken),
       CASE(a_third_component_is_none_of_a_plane),
+      CASE(codes_of_missing_data_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
  * and north. */
 #include "base/angle.h"
 #include "base/memory.h"
+#include "field/refused.h"
 #include "read/mesh/mesh.h"
 
 #include <math.h>
@@ -329,6 +330,9 @@ static fg_status fill(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *
   for (size_t n = 0; n < all->count && status == FG_STATUS_OK && all->wet; ++n)
     if (!all->wet[n])
       all->component[0][n] = NAN;
+  if (status == FG_STATUS_OK)
+    status = fg__refuse_missing_codes(file->context, file->paths[0], all->component,
+                                      all->count);
   return status == FG_STATUS_OK ? turn(all, mesh, file, time) : status;
 }
 

@@ -126,7 +126,7 @@ fg_status fg__table_settle_polar(fg__table_vector *vector, const fg__table *tabl
              table->path, table->column[speed].name, table->column[direction].name);
     fg__hint(table->context,
              "write components u and v first: whether the direction turns from north or "
-             "from x is not told");
+             "from x is not known");
     return FG_STATUS_UNSUPPORTED;
   }
   pair[0] = speed;

@@ -1,6 +1,7 @@
 /* Fields of unstructured meshes: vectors and a mask read, cells made, on the sphere or in
  * the plane. */
 #include "base/memory.h"
+#include "field/refused.h"
 #include "map/map.h"
 #include "read/cells/set.h"
 #include "read/points/points.h"
@@ -97,7 +98,12 @@ static fg_status read_vectors(float *velocity[2], const request *r)
   if (status == FG_STATUS_OK)
     status = read_values(&velocity[1], r, r->pair->component[1],
                          &grid->unstructured->of_v, false);
-  return status == FG_STATUS_OK ? apply_mask(velocity[0], r) : status;
+  if (status == FG_STATUS_OK)
+    status = apply_mask(velocity[0], r);
+  if (status != FG_STATUS_OK || r->counts_only)
+    return status;
+  return fg__refuse_missing_codes(r->file->context, r->file->paths[0], velocity,
+                                  grid->samples);
 }
 
 /* In a plane that repeats itself faces across its seam are as wide as all of it: they are
