@@ -321,15 +321,16 @@ int sandbox_reading_part(const char *input, const fg_read_options *options, int 
     return EXIT_DONE;
   const bool lists = !options || slabs == 0, hdf5 = strcmp(library, "HDF5") == 0;
   reading list = {input, options, 0, 0}, r = {input, options, slab, slabs};
-  child_bounds bounds = bounds_for(size, LISTED_BYTES_A_SECOND);
+  child_bounds bounds =
+      bounds_for(size, hdf5 ? LISTED_BYTES_A_SECOND : SMALL_BYTES_A_SECOND);
   child_outcome outcome = {.signal = 0};
-  if (hdf5 && !lists)
+  if (hdf5 && !lists) { /* only its end counts: the reading repeats any complaint */
     do_in_child(&outcome, read_once, &list, &bounds);
-  if (!outcome.signal) { /* any complaint is made again */
-    if (!hdf5 || !lists)
+    if (!outcome.signal)
       bounds = bounds_for(size, SMALL_BYTES_A_SECOND);
-    do_in_child(&outcome, read_once, &r, &bounds);
   }
+  if (!outcome.signal)
+    do_in_child(&outcome, read_once, &r, &bounds);
   if (interrupt_came() || (!outcome.signal && !outcome.complaint[0]))
     return EXIT_DONE; /* the reading itself stops at an interrupt */
   return complain_of_child(input, library, &outcome, &bounds);

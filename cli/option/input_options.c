@@ -35,8 +35,7 @@ static const option_entry input_entries[] = {
              "1982-07, 1982-07-16, 1982-07-16T12:00. Of one value or date that is not "
              "there the nearest is taken, unless it lies farther beyond the first or the "
              "last than that is from the next. run takes several, a folder each and up "
-             "to 12 as "
-             "panels of one figure, too: 0:11, 1982-01:1982-06, 0,6, all [0]"},
+             "to 12 as panels of one figure, too: 0:11, 1982-01:1982-06, 0,6, all [0]"},
     {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_text),
      .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
              "too, where there are fewer levels and one has that value; words that info "

@@ -156,13 +156,16 @@ int panels_draw(series_index *index)
                             .input = run->reading.input,
                             .scale_index = 0};
   memcpy(settings.picture.speed_range, index->speeds, sizeof index->speeds);
-  if (index->count > MOST_MEMBERS && formats && can_be_drawn(run) && !run->quiet)
-    fprintf(stderr,
-            "flowgrain: no panels: of %d members they would be small; `flowgrain draw %s "
-            "-o FILE` draws them\n",
-            index->count, run->output);
-  if (index->count < 2 || index->count > MOST_MEMBERS || !formats || !can_be_drawn(run))
+  if (index->count < 2 || !formats || !can_be_drawn(run))
     return EXIT_DONE;
+  if (index->count > MOST_MEMBERS) {
+    if (!run->quiet)
+      fprintf(stderr,
+              "flowgrain: no panels: of %d members they would be small; `flowgrain draw "
+              "%s -o FILE` draws them\n",
+              index->count, run->output);
+    return EXIT_DONE;
+  }
   int code = drawn_panels_open(&panels, &settings);
   index->panel_scales = code || panels.runs < 2 ? 0 : scales_of(&panels);
   index->panel_formats = formats;

@@ -97,8 +97,9 @@ typedef struct fg_field_arrays {
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds
- * beyond 1e15, a field that is zero everywhere), UNSUPPORTED (3D with scale GEO), MEMORY.
- */
+ * beyond 1e15, a field that is zero everywhere, a sample whose components are all -999 or
+ * all another number that stands for missing data), UNSUPPORTED (3D with scale GEO),
+ * MEMORY. */
 FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);

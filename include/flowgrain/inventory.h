@@ -43,8 +43,7 @@ typedef struct fg_inventory_vector {
   const fg_axis_value *time_value, *level_value; /* [times], [levels]; NULL: not known */
   int usual_level;                               /* fg_read_defaults.level */
   const char *absent;                            /* fg_read_defaults.absent; NULL: none */
-  const char
-      *chosen; /* words of the samples that fg_read_options.at chooses; NULL: none */
+  const char *chosen;       /* the samples of fg_read_options.at; NULL: none */
   const char *axis_name[3]; /* of a plane in space; NULL: x, y, z */
 } fg_inventory_vector;
 

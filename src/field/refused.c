@@ -4,10 +4,11 @@
 
 const double fg__field_largest_speed = 1e15;
 
+/* Numbers that stand for missing data in many files. */
 static const float CODES[] = {-999.0F,  -9999.0F, -99999.0F, -999.9F,
                               -9999.9F, -999.99F, -32767.0F, -32768.0F,
                               999.9F,   9999.0F,  9999.9F,   99999.0F};
-static const char declare[] =
+static const char HINT[] =
     "declare it as missing (NetCDF: _FillValue), or put NaN in its place";
 static const float SMALLEST_CODE = 999.0F; /* in size */
 
@@ -35,7 +36,7 @@ fg_status fg__refuse_missing_codes(fg_context *context, const char *path,
              "%s: both components are %g at a sample, which stands for missing data in "
              "many files",
              path, (double)velocity[0][i]);
-    fg__hint(context, "%s", declare);
+    fg__hint(context, "%s", HINT);
     return FG_STATUS_FILE_FORMAT;
   }
   return FG_STATUS_OK;

@@ -45,8 +45,9 @@ enum { MOST_INK_STEPS = 12 };
 /* By how much the ink falls where its penalty rises by 1, about; the largest change of
  * the penalty at once; the share of it while icons still get fewer. */
 static const double INK_PER_PENALTY = 0.4, MOST_PENALTY_STEP = 0.4, CHAIN_SHARE = 0.5;
-static const double SMALL_STEP =
-    0.1; /* of icons, in lambda, once they are nearly right */
+
+/* Icons that are nearly right move by so many lambda. */
+static const double SMALL_STEP = 0.1;
 
 /* The largest share of lines that may touch others, and how the penalty grows for it. */
 static const double MOST_TOUCHING = 0.002, TOUCH_GROWTH = 2.0;

@@ -53,7 +53,7 @@ static fg_status fail_code(const fg__scatter *points, size_t i)
   return status;
 }
 
-static fg_status check_places(const fg__scatter *points)
+static fg_status check_points(const fg__scatter *points)
 {
   const float *const across[3] = {points->velocity[0], points->velocity[1], NULL};
   if (points->count > FG__DELAUNAY_MOST)
@@ -428,7 +428,7 @@ static fg_status arrange(fg__point_grid *out, bool *found, fg__scatter *points,
 {
   *out = (fg__point_grid){0};
   *found = false;
-  fg_status status = check_places(points);
+  fg_status status = check_points(points);
   if (status == FG_STATUS_OK)
     fg__scatter_flatten(points, words);
   if (status == FG_STATUS_OK && points->geographic)

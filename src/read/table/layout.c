@@ -215,8 +215,8 @@ static void hint_at_number(const fg__table *table, const fg__table_field *field)
     fg__hint(table->context, "write degrees as numbers, west and south below 0");
 }
 
-/* Tells which text in the first row with a number is none; false where no such row is
- * soon after the names. */
+/* Refuses the first row with a number, for a text in it that is none; false where no such
+ * row is soon after the names. */
 static bool fail_row(const fg__table *table, const fg__table_line *names,
                      fg__table_cursor cursor, int columns)
 {
