@@ -9,13 +9,17 @@
 
 enum { LLOYD_STEPS = 12 };
 
+/* The first even point lies farther than so many lambda from all icons that are there,
+ * anywhere, if such a place exists. */
+static const double FAR = 4.0;
+
 typedef struct points {
   const fg__place_raster *raster;
   float (*place)[3]; /* a seed, in cells */
   double (*sum)[4];  /* a seed: of its cells' places by weight, and the weight */
   float *square;     /* a cell: distance to the nearest seed */
   int *owner;        /* a cell: that seed */
-  int count;
+  int there, count;  /* the first ones are seeds of icons that are there; they stay */
 } points;
 
 static void cell_place(const fg__place_raster *raster, size_t cell, float place[3])
@@ -74,15 +78,27 @@ static void forget(points *all)
   }
 }
 
-/* The first seed is the cell that counts most, the first of such. */
+/* Lets the first `count` seeds own the cells within a distance that each is nearest to.
+ */
+static void claim_all(points *all, int count, float within)
+{
+  forget(all);
+  for (int n = 0; n < count; ++n) {
+    int low[3], high[3];
+    box_round(all, n, within, low, high);
+    claim(all, n, low, high);
+  }
+}
+
+/* Without icons the first seed is the cell that counts most, the first of such. */
 static fg_status choose_farthest(points *all, fg_context *context)
 {
   const fg__place_raster *raster = all->raster;
   fg__place_peaks peaks;
-  forget(all);
+  claim_all(all, all->there, (float)FAR / raster->cell);
   fg_status status =
       fg__place_peaks_create(&peaks, context, raster, all->square, raster->weight);
-  for (int seed = 0; seed < all->count && status == FG_STATUS_OK; ++seed) {
+  for (int seed = all->there; seed < all->count && status == FG_STATUS_OK; ++seed) {
     size_t best;
     int low[3], high[3];
     fg__place_peaks_top(&best, &peaks);
@@ -113,7 +129,7 @@ static void move_to_centroids(points *all)
         sum[2] += weight * z;
         sum[3] += weight;
       }
-  for (int n = 0; n < all->count; ++n)
+  for (int n = all->there; n < all->count; ++n)
     for (int k = 0; k < 3 && all->sum[n][3] > 0.0; ++k)
       all->place[n][k] = (float)(all->sum[n][k] / all->sum[n][3]);
 }
@@ -128,22 +144,26 @@ static fg_status even_out(points *all, fg_context *context)
   within = 2.0F * sqrtf(within) + 1.0F;
   for (int step = 0; step < LLOYD_STEPS && status == FG_STATUS_OK; ++step) {
     move_to_centroids(all);
-    forget(all);
-    for (int n = 0; n < all->count; ++n) {
-      int low[3], high[3];
-      box_round(all, n, within, low, high);
-      claim(all, n, low, high);
-    }
+    claim_all(all, all->count, within);
     status = fg__check_stop(context);
   }
   return status;
+}
+
+static void take_icons(points *all, const fg__place_search *search)
+{
+  for (int n = 0; n < all->there; ++n)
+    for (int k = 0; k < search->scale.dimension; ++k) {
+      double at = search->icon[n]->seed.position[k] - search->domain->low[k];
+      all->place[n][k] = (float)(at / search->scale.cell - 0.5);
+    }
 }
 
 static fg_status add_icons(fg__place_search *search, const points *all)
 {
   const fg__place_scale *scale = &search->scale;
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < all->count && status == FG_STATUS_OK; ++n) {
+  for (int n = all->there; n < all->count && status == FG_STATUS_OK; ++n) {
     fg__place_seed seed = {{0}, {0}};
     bool added;
     for (int k = 0; k < scale->dimension; ++k)
@@ -156,10 +176,12 @@ static fg_status add_icons(fg__place_search *search, const points *all)
   return status;
 }
 
-fg_status fg__place_start_even(fg__place_search *search)
+fg_status fg__place_fill_evenly(fg__place_search *search, int count)
 {
   const fg__place_raster *raster = &search->raster;
-  points all = {.raster = raster, .count = search->scale.count};
+  points all = {.raster = raster, .there = search->count, .count = count};
+  if (all.count <= all.there)
+    return FG_STATUS_OK;
   all.place = fg__allocate((size_t)all.count, sizeof *all.place);
   all.sum = fg__allocate((size_t)all.count, sizeof *all.sum);
   all.square = fg__allocate(raster->count, sizeof *all.square);
@@ -168,8 +190,10 @@ fg_status fg__place_start_even(fg__place_search *search)
   if (!all.place || !all.sum || !all.square || !all.owner)
     status = fg__fail_memory(search->context, "even seeds",
                              raster->count * (sizeof *all.square + sizeof *all.owner));
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK) {
+    take_icons(&all, search);
     status = even_out(&all, search->context);
+  }
   if (status == FG_STATUS_OK)
     status = add_icons(search, &all);
   free(all.place);
