@@ -7,16 +7,14 @@ need_ranks
 # A classic NetCDF file: u and v on three times, two levels and a grid of 33 x 17; the
 # speeds double from time to time. The last time of the file dead.nc has none.
 make_wind() {
-  perl -e '
+  write_netcdf '
     my ($dead) = @ARGV;
-    my @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
-    sub name { my $n = shift; pack("N a*", length $n, $n) . "\0" x (-length($n) % 4) }
-    sub text { my ($n, $v) = @_; name($n) . pack("N", 2) . name($v) }
-    my @vars = (
-      ["time", [0], 6, "hours since 1982-07-16 00:00", [0, 6, 30]],
-      ["lev", [1], 6, "hPa", [850, 300]],
-      ["y", [2], 6, "km", [map { 10 * $_ } 0 .. 16]],
-      ["x", [3], 6, "km", [map { 10 * $_ } 0 .. 32]]);
+    @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
+    @vars = (
+      ["time", [0], 6, [units => "hours since 1982-07-16 00:00"], [0, 6, 30]],
+      ["lev", [1], 6, [units => "hPa"], [850, 300]],
+      ["y", [2], 6, [units => "km"], [map { 10 * $_ } 0 .. 16]],
+      ["x", [3], 6, [units => "km"], [map { 10 * $_ } 0 .. 32]]);
     for my $c (0, 1) {
       my @v;
       for my $t (0 .. 2) { for my $l (0 .. 1) { for my $j (0 .. 16) { for my $i (0 .. 32) {
@@ -24,25 +22,8 @@ make_wind() {
         my $s = $dead && $t == 2 ? 0 : 2 ** $t * (1 + $l);
         push @v, $s * ($c ? 0.3 + $x : 1 - 2 * $y + 0.2 * $t * $x);
       } } } }
-      push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, "m s-1", \@v];
-    }
-    my ($head, $data, $at) = ("", "", 0);
-    for my $pass (0, 1) {
-      my $begin = $pass * $at;
-      ($head, $data) = ("CDF\1" . pack("N N N", 0, 10, scalar @dims), "");
-      $head .= name($_->[0]) . pack("N", $_->[1]) for @dims;
-      $head .= pack("N N N N", 0, 0, 11, scalar @vars);
-      for (@vars) {
-        my ($n, $d, $type, $units, $v) = @$_;
-        my $bytes = pack($type == 5 ? "f>*" : "d>*", @$v);
-        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", 12, 1) . text("units", $units);
-        $head .= pack("N N N", $type, length $bytes, $begin + length $data);
-        $data .= $bytes;
-      }
-      $at = length $head;
-    }
-    binmode STDOUT;
-    print $head, $data;' "$1"
+      push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, [units => "m s-1"], \@v];
+    }' "$1"
 }
 make_wind 0 >wind.nc
 make_wind 1 >dead.nc
