@@ -244,6 +244,7 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
                            const fg__nc_pair *pair, fg_frame frame, bool *found)
 {
   *found = false;
+  mesh->polar = pair->polar;
   if (!fg__nc_mesh_parts(mesh, file, pair))
     return FG_STATUS_OK;
   for (int k = 0; k < 2; ++k)

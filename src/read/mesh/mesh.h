@@ -30,6 +30,7 @@ struct fg__nc_mesh {
   int shift[2];        /* component k along its own direction: sample 0 lies on centre 0,
                           half a cell before (-1) or after it (1) */
   fg__nc_turn turn;
+  fg__polar polar; /* components are a speed and a direction */
   const fg__nc_variable *angle[2];
   const fg__nc_variable *mask; /* of the centres: 0 is land; NULL: none */
   char rule[2 * FG__NC_TEXT];  /* which rule chose the frame */
