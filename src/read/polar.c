@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -25,6 +26,13 @@ void fg__polar_turn_all(float *const vector[2], size_t count, const fg__polar *p
     vector[0][n] = (float)one[0];
     vector[1][n] = (float)one[1];
   }
+}
+
+void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char *rule)
+{
+  snprintf(out, size, "of a speed and its direction %s, in %s clockwise from north: %s",
+           polar->sense < 0 ? "from where it comes" : "to where it goes",
+           polar->unit == 1.0 ? "radians" : "degrees", rule);
 }
 
 double fg__polar_unit(const char *units)

@@ -17,6 +17,9 @@ void fg__polar_turn(double vector[2], const fg__polar *polar);
 /* The same of whole arrays; components are left as they are. */
 void fg__polar_turn_all(float *const vector[2], size_t count, const fg__polar *polar);
 
+/* What a speed and its direction are, and which rule says so. */
+void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char *rule);
+
 /* Radians in a unit of angles, "degrees", "deg true" or "rad"; 0: it is none. */
 double fg__polar_unit(const char *units);
 

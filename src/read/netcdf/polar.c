@@ -209,13 +209,10 @@ const char *fg__nc_component_name(const fg__nc_pair *pair, int k)
 
 void fg__nc_polar_words(char *out, size_t size, const fg__nc_pair *pair)
 {
-  char standard[FG__NC_TEXT];
+  char standard[FG__NC_TEXT], rule[FG__NC_TEXT];
   const fg__nc_variable *direction = pair->component[1];
   standard_name(standard, direction);
-  snprintf(out, size,
-           "of a speed and its direction %s, in %s clockwise from north: %s%.60s",
-           pair->polar.sense < 0 ? "from where it comes" : "to where it goes",
-           pair->polar.unit == 1.0 ? "radians" : "degrees",
-           standard[0] ? "standard_name " : "its name is ",
+  snprintf(rule, sizeof rule, "%s %.80s", standard[0] ? "standard_name" : "its name is",
            standard[0] ? standard : direction->plain_name);
+  fg__polar_words(out, size, &pair->polar, rule);
 }
