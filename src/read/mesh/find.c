@@ -254,6 +254,8 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
   if (storage.unusable[0])
     return FG_STATUS_OK;
   fg_status status = find_shift(found, mesh, file);
+  if (status == FG_STATUS_OK && mesh->apart)
+    fg__nc_refuse_apart(grid, pair);
   if (status != FG_STATUS_OK || !*found)
     return status;
   grid->unusable[0] = grid->hint[0] = '\0';

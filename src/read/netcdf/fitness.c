@@ -97,6 +97,18 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
     }
 }
 
+void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
+  const bool other = u->file != v->file;
+  snprintf(grid->unusable, sizeof grid->unusable,
+           "'%.60s' and '%.60s'%s%.200s lie more than half a cell apart: they are of "
+           "different "
+           "grids",
+           u->plain_name, v->plain_name, other ? " of " : "", other ? v->path : "");
+  grid->hint[0] = '\0';
+}
+
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v)
 {

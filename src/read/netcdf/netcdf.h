@@ -304,6 +304,9 @@ typedef struct fg__nc_grid {
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
+/* Makes a pair unusable whose components lie more than half a cell apart. */
+void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair);
+
 /* Makes the pair unusable where a variable is not numeric, or has more samples than a
  * file of this size can hold. */
 void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
