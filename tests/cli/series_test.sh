@@ -5,10 +5,10 @@ source "$(dirname "$0")/harness.sh"
 need_ranks
 
 # A classic NetCDF file: u and v on three times, two levels and a grid of 33 x 17; the
-# speeds double from time to time. The last time of the file dead.nc has none.
-make_wind() {
+# speeds double from time to time; some have none.
+make_wind() { # TIMES WITHOUT A SPEED
   perl -e '
-    my ($dead) = @ARGV;
+    my %dead = map { $_ => 1 } @ARGV;
     my @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
     sub name { my $n = shift; pack("N a*", length $n, $n) . "\0" x (-length($n) % 4) }
     sub text { my ($n, $v) = @_; name($n) . pack("N", 2) . name($v) }
@@ -21,7 +21,7 @@ make_wind() {
       my @v;
       for my $t (0 .. 2) { for my $l (0 .. 1) { for my $j (0 .. 16) { for my $i (0 .. 32) {
         my ($x, $y) = ($i / 16 - 1, $j / 16 - 0.5);
-        my $s = $dead && $t == 2 ? 0 : 2 ** $t * (1 + $l);
+        my $s = $dead{$t} ? 0 : 2 ** $t * (1 + $l);
         push @v, $s * ($c ? 0.3 + $x : 1 - 2 * $y + 0.2 * $t * $x);
       } } } }
       push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, "m s-1", \@v];
@@ -42,10 +42,10 @@ make_wind() {
       $at = length $head;
     }
     binmode STDOUT;
-    print $head, $data;' "$1"
+    print $head, $data;' "$@"
 }
-make_wind 0 >wind.nc
-make_wind 1 >dead.nc
+make_wind >wind.nc
+make_wind 2 >dead.nc
 
 try info wind.nc
 expect_code 0
@@ -53,6 +53,27 @@ grep -q '    2: 1982-07-17 06:00' out || fault "no third time: $(cat out)"
 try info wind.nc --json
 expect_json out '.vectors[0].level_values == [{value: 850, units: "hPa", words: "850 hPa"}, {value: 300, units: "hPa", words: "300 hPa"}]'
 done_with "info tells times and levels by value"
+
+# a child process reads what looks like GRIB first
+as_child() {
+  perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04GRIB/"
+}
+make_wind 0 2 >middle.nc
+make_wind 0 1 2 >none.nc
+as_child <middle.nc >middle-child.nc
+as_child <none.nc >none-child.nc
+for file in middle middle-child; do
+  try info $file.nc --scale plain
+  expect_code 0
+  grep -q 'grid: 33 x 17' out || fault "$file: no grid: $(cat out)"
+done
+for file in none none-child; do
+  try info $file.nc --scale plain
+  expect_code 1
+  expect_error "$file.nc: .*zero everywhere"
+  expect_error '^The same holds for all of its 3 times'
+done
+done_with "info with options looks at other times where the first has no values"
 
 small=(--arrows 8 --effort 0 --nodes 65 --formats svg)
 chosen() { # PATTERN-OF-STDERR TIME LEVEL OPTIONS...: what run.json says was read
@@ -201,8 +222,7 @@ expect_code 1
 expect_error 'zero everywhere'
 expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
 expect_one_complaint
-# a child process reads what looks like GRIB first, and says the same
-perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04GRIB/" dead.nc >child.nc
+as_child <dead.nc >child.nc # says the same
 try run child.nc -o dead "${small[@]}" --time 2
 expect_code 1
 expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'

@@ -118,10 +118,11 @@ static void take_places(fg__npy_choice *out, fg__npy_file *file,
 
 static fg_status fail_polar(const fg__npy_file *file, const fg__table_vector *named)
 {
-  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-           "%s: %s and %s are a speed and a direction, which are not read from NumPy files",
-           file->path, file->array[named->velocity[0]].name,
-           file->array[named->velocity[1]].name);
+  fg__fail(
+      file->context, FG_STATUS_UNSUPPORTED,
+      "%s: %s and %s are a speed and a direction, which are not read from NumPy files",
+      file->path, file->array[named->velocity[0]].name,
+      file->array[named->velocity[1]].name);
   fg__hint(file->context,
            "save u = %sspeed * sin(direction) and v = %sspeed * "
            "cos(direction)",
