@@ -5,8 +5,8 @@ source "$(dirname "$0")/harness.sh"
 need_ranks
 
 # A classic NetCDF file: u and v on three times, two levels and a grid of 33 x 17; the
-# speeds double from time to time; some have none.
-make_wind() { # TIMES WITHOUT A SPEED
+# speeds double from time to time; some have none, and a bare file has no x and y.
+make_wind() { # [bare] TIMES WITHOUT A SPEED
   perl -e '
     my %dead = map { $_ => 1 } @ARGV;
     my @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
@@ -17,6 +17,7 @@ make_wind() { # TIMES WITHOUT A SPEED
       ["lev", [1], 6, "hPa", [850, 300]],
       ["y", [2], 6, "km", [map { 10 * $_ } 0 .. 16]],
       ["x", [3], 6, "km", [map { 10 * $_ } 0 .. 32]]);
+    splice @vars, 2 if $dead{bare};
     for my $c (0, 1) {
       my @v;
       for my $t (0 .. 2) { for my $l (0 .. 1) { for my $j (0 .. 16) { for my $i (0 .. 32) {
@@ -130,6 +131,30 @@ done_with "a sample of a dimension by its name"
 cp wind.nc other.nc
 try run wind.nc --vars u,v --vars-from other.nc -o parted "${small[@]}" --quiet
 expect_code 0
+resume_parted() { # CODE PATTERN OPTIONS...
+  try run wind.nc --vars u,v -o parted "${small[@]}" --resume "${@:3}"
+  expect_code "$1"
+  expect_error "$2"
+}
+cp wind.nc third.nc
+resume_parted 0 'the run is finished' --vars-from "$PWD/../${PWD##*/}/other.nc"
+resume_parted 1 'begun with --vars-from .*/other.nc; this command goes with --vars-from .*/third.nc$' --vars-from third.nc
+resume_parted 1 'begun with --vars-from .*/other.nc; this command goes without --vars-from$'
+make_wind bare >bare.nc
+meshed=(run bare.nc -o meshed "${small[@]}")
+try "${meshed[@]}" --mesh-from wind.nc --quiet
+expect_code 0
+try "${meshed[@]}" --mesh-from ./wind.nc --resume
+expect_code 0
+try "${meshed[@]}" --mesh-from third.nc --resume
+expect_code 1
+expect_error 'meshed: its run was begun with --mesh-from .*/wind.nc; this command goes with --mesh-from .*/third.nc$'
+try run bare.nc -o meshes "${small[@]}" --time 0,1 --mesh-from wind.nc --quiet
+expect_code 0
+try run bare.nc -o meshes "${small[@]}" --time 0,1 --mesh-from third.nc --resume
+expect_code 1
+expect_error 'meshes: its run was begun with --mesh-from .*/wind.nc; this command goes with --mesh-from .*/third.nc$'
+done_with "a finished run, or a series, is not taken for one of other further files"
 mv other.nc moved.nc
 try draw parted -o x.svg
 expect_code 1
