@@ -134,16 +134,6 @@ static bool is_same_place(const fg__nc_part *a, const fg__nc_part *b)
          a->longitude == b->longitude && a->latitude == b->latitude;
 }
 
-/* Whether names are alike, or differ in a u of one where the other has a v ("depthu" and
- * "depthv" of NEMO). */
-static bool named_alike(const char *of_u, const char *of_v)
-{
-  for (; *of_u && *of_v; ++of_u, ++of_v)
-    if (*of_u != *of_v && !(*of_u == 'u' && *of_v == 'v'))
-      return false;
-  return *of_u == *of_v;
-}
-
 /* Whether components have the same times, or the same levels. */
 static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
                        const fg__nc_part *v, int of_v)
@@ -154,8 +144,9 @@ static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
   const fg__nc_dimension *of = file->dimensions;
   if (a == b || of[a].length != of[b].length)
     return a == b;
-  return u->variable->file == v->variable->file ? strcmp(of[a].name, of[b].name) == 0
-                                                : named_alike(of[a].name, of[b].name);
+  return u->variable->file == v->variable->file
+             ? strcmp(of[a].name, of[b].name) == 0
+             : fg__nc_named_alike(of[a].name, of[b].name);
 }
 
 static bool fits(const fg__nc_mesh *mesh)

@@ -267,6 +267,72 @@ static void faces_of_different_regions_are_refused(void **state)
   unlink(second.path);
 }
 
+enum { LEVELS = 3 };
+
+/* NEMO's grid_U and grid_V at depths: each file has a name of its own for these. Speeds
+ * are 1 + level; v's are doubled. */
+static void make_layers(sample_file *f, int k, const double *depth)
+{
+  static const char *const names[] = {"depthu", "depthv"};
+  static const char *const standard[] = {"sea_water_x_velocity", "sea_water_y_velocity"};
+  double x[FACE_COLUMNS], y[FACE_ROWS], speed[LEVELS * FACES];
+  for (int n = 0; n < FACE_COLUMNS; ++n)
+    x[n] = -21.0 + 2.0 * (n + (k == 0 ? 0.5 : 0.0));
+  for (int n = 0; n < FACE_ROWS; ++n)
+    y[n] = 33.0 + 2.0 * (n + (k == 1 ? 0.5 : 0.0));
+  for (int n = 0; n < LEVELS * FACES; ++n)
+    speed[n] = (1.0 + k) * (1.0 + n / FACES);
+  sample_begin(f, 0);
+  const int all[3] = {sample_axis(f, names[k], LEVELS, depth, "m"),
+                      sample_axis(f, "y", FACE_ROWS, y, "degrees_north"),
+                      sample_axis(f, "x", FACE_COLUMNS, x, "degrees_east")};
+  const int id = sample_variable(f, k == 0 ? "uo" : "vo", NC_DOUBLE, 3, all);
+  sample_text(f, id, "units", "m/s");
+  sample_text(f, id, "standard_name", standard[k]);
+  sample_put(f, id, speed);
+  sample_end(f);
+}
+
+/* The level of the options, or the sample of one's dimension, is that of both. */
+static void levels_of_two_names_are_joined(void **state)
+{
+  static const double depth[LEVELS] = {0.5, 10.0, 100.0}, other[] = {0.5, 12.0, 100.0},
+                      turned[] = {100.0, 10.0, 0.5};
+  static const char *const at[] = {NULL,         "depthu=2",         "depthu=100m",
+                                   "depthv=2",   "depthv=100.0",     "depthu=2,depthv=2",
+                                   "depthu=1 m", "depthu=0,depthv=2"};
+  enum { JOINED = 6, CHOICES = sizeof at / sizeof *at };
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  make_layers(f, 0, depth);
+  make_layers(&second, 1, depth);
+  for (int n = 0; n < CHOICES; ++n) {
+    const fg_read_options options = {
+        .vars_from = second.path, .at = at[n], .level = at[n] ? 0 : 2};
+    if (n >= JOINED) {
+      refuse_with(f, &options, n == JOINED ? FG_STATUS_ARGUMENT : FG_STATUS_UNSUPPORTED,
+                  n == JOINED ? "'depthu=1 m' is not there"
+                              : "'depthu' of 'uo' and 'depthv' of 'vo' have different");
+      continue;
+    }
+    fg_field *field = read_with(f, &options);
+    const fg_field_arrays *a = fg_field_contents(field);
+    const int middle = a->size[0] * (a->size[1] / 2) + a->size[0] / 2;
+    assert_string_equal(a->level, "depth 100 m");
+    const double u = (double)a->velocity[0][middle], v = (double)a->velocity[1][middle];
+    assert_true(fabs(hypot(u, v) - 3.0 * sqrt(5.0)) < 1e-5);
+    fg_field_destroy(field);
+  }
+  make_layers(&second, 1, turned);
+  const fg_read_options by_value = {.vars_from = second.path, .at = "depthu=100m"};
+  fg_field_destroy(read_with(f, &by_value));
+  make_layers(&second, 1, other);
+  refuse_with(f, &(fg_read_options){.vars_from = second.path}, FG_STATUS_UNSUPPORTED,
+              "'depthu' of 'uo' and 'depthv' of 'vo' have different values");
+  unlink(second.path);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
@@ -278,6 +344,7 @@ int main(void)
       CASE(components_at_the_same_places_in_two_files_stay_on_axes),
       CASE(components_of_different_regions_are_refused),
       CASE(faces_of_different_regions_are_refused),
+      CASE(levels_of_two_names_are_joined),
   };
   return cmocka_run_group_tests_name("read/netcdf/files", tests, NULL, NULL);
 }

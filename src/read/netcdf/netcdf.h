@@ -347,6 +347,10 @@ fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
 
+/* Whether names are equal, or differ in a u of one where the other has a v ("depthu" and
+ * "depthv" of NEMO). */
+bool fg__nc_named_alike(const char *of_u, const char *of_v);
+
 /* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
  * dimensions and perhaps one for each time. One of the same file is preferred, then one
  * that the attribute `coordinates` names. NULL: there is none. */
