@@ -22,8 +22,9 @@ static const option_entry input_entries[] = {
      .help = "likewise, the file with the mesh"},
     {"vars", 0, "U,V[,W]", DESCRIBERS, OPTION_TEXT, READING(vars),
      .help =
-         "the two or three variables, or one vector variable [found by their standard or "
-         "usual names; an ambiguous choice is an error that lists the choices]"},
+         "the two or three variables, a speed and its direction, or one vector variable "
+         "[found by their standard or usual names; an ambiguous choice is an error that "
+         "lists the choices]"},
     {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
      .help = "second file, which holds the other component, the positions, or the mesh"},
     {"mesh-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(mesh_from),

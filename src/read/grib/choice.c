@@ -86,11 +86,10 @@ static fg_status find_named(fg__grib_pairs *out, const fg__grib_file *file,
   return fg__grib_pairs_named(out, file, u, v);
 }
 
-/* Velocities come first; what else there is counts where there is none. */
+/* Others than those of the first rank count where there is none of these. */
 static void drop_others(fg__grib_pairs *pairs)
 {
-  while (pairs->count > 1 && pairs->pair[0].is_velocity &&
-         !pairs->pair[pairs->count - 1].is_velocity)
+  while (pairs->count > 1 && pairs->pair[0].rank < pairs->pair[pairs->count - 1].rank)
     fg__grib_pair_clear(&pairs->pair[--pairs->count]);
 }
 

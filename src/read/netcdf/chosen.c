@@ -151,7 +151,32 @@ static fg_status choose_named(fg__nc_file *file, const char *name, const char *w
   return FG_STATUS_ARGUMENT;
 }
 
-fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
+static bool has_dimension(const fg__nc_file *file, int root, const char *name)
+{
+  for (size_t i = 0; i < file->dimension_count; ++i)
+    if (file->dimensions[i].root == root && strcmp(file->dimensions[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+/* The same in files without a dimension of the name, of the other component's ("depthv"
+ * of "depthu") that nothing is chosen of. */
+static fg_status choose_alike(fg__nc_file *file, const char *name, const char *which)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < file->dimension_count && status == FG_STATUS_OK; ++i) {
+    const fg__nc_dimension *d = &file->dimensions[i];
+    const bool alike =
+        fg__nc_named_alike(name, d->name) || fg__nc_named_alike(d->name, name);
+    if (alike && !d->is_chosen && !has_dimension(file, d->root, name))
+      status = choose_sample(file, (int)i, which);
+  }
+  return status;
+}
+
+typedef fg_status chooser(fg__nc_file *file, const char *name, const char *which);
+
+static fg_status choose_each(fg__nc_file *file, const char *text, chooser *choose)
 {
   char *copy = fg__copy_text(text);
   fg_status status =
@@ -167,11 +192,19 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
       break;
     }
     *equals = '\0';
-    status = choose_named(file, one + strspn(one, " "), equals + 1);
+    status = choose(file, one + strspn(one, " "), equals + 1);
     one = comma ? comma + 1 : NULL;
   }
-  memset(file->was_read, 0, sizeof file->was_read);
   free(copy);
+  return status;
+}
+
+fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
+{
+  fg_status status = choose_each(file, text, choose_named);
+  if (status == FG_STATUS_OK)
+    status = choose_each(file, text, choose_alike);
+  memset(file->was_read, 0, sizeof file->was_read);
   return status;
 }
 

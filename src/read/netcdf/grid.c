@@ -202,6 +202,8 @@ static void check_units(fg__nc_grid *grid, const fg__nc_pair *pair,
   char of_v[FG__NC_TEXT];
   *quantity = velocity_units(pair->component[0], of_u, sizeof of_u);
   const fg__nc_quantity other = velocity_units(pair->component[1], of_v, sizeof of_v);
+  if (pair->polar.sense != 0)
+    return;
   if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s",
                      pair->component[0]->plain_name, of_u, pair->component[1]->plain_name,
@@ -230,14 +232,16 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
  * a rotated pole, except in cylindrical projections such as Mercator's. Without the
  * projection they cannot be rotated. */
 static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
-                             const fg__nc_variable *u, fg_frame frame)
+                             const fg__nc_pair *pair, fg_frame frame)
 {
+  const fg__nc_variable *u = pair->component[0];
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
   char text[FG__NC_TEXT];
   char mapping[FG__NC_TEXT];
   fg__nc_text(u, "standard_name", text, sizeof text);
-  const bool east = strstr(text, "eastward") && strncmp(text, "grid_", 5) != 0;
+  const bool east = pair->polar.sense != 0 ||
+                    (strstr(text, "eastward") && strncmp(text, "grid_", 5) != 0);
   if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
   if (grid->projection[0]) {
@@ -277,8 +281,9 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
     status = fg__nc_projection_find(grid, file, pair->component[0]);
   if (grid->projection[0])
     grid->scale = FG_SCALE_MAP;
-  if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO) && is_usable(grid))
-    check_directions(grid, file, pair->component[0], options->frame);
+  if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO || pair->polar.sense != 0) &&
+      is_usable(grid))
+    check_directions(grid, file, pair, options->frame);
   if (grid->scale == FG_SCALE_GEO &&
       (x->quantity == FG__NC_LENGTH || y->quantity == FG__NC_LENGTH))
     fg__set_unusable(grid->unusable,
@@ -327,7 +332,7 @@ static fg_status find_on_faces(fg__nc_grid *grid, const fg__nc_file *file,
   return is_usable(grid) ? settle_scale(grid, file, pair, velocity, options) : status;
 }
 
-fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+static fg_status find_grid(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options)
 {
   *grid = (fg__nc_grid){.dimension = 2,
@@ -359,6 +364,15 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
     status = find_on_faces(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
     check_units(grid, pair, &velocity);
+  return status;
+}
+
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, const fg_read_options *options)
+{
+  const fg_status status = find_grid(grid, file, pair, options);
+  if (status == FG_STATUS_OK && is_usable(grid))
+    fg__nc_check_polar(grid, pair, options);
   return status;
 }
 

@@ -4,6 +4,7 @@
 #define FG__NETCDF_H
 
 #include "read/format.h"
+#include "read/polar.h"
 #include "read/signature.h"
 
 #include <netcdf.h>
@@ -197,6 +198,7 @@ bool fg__nc_duration(double value, const char *units, char *out, size_t size);
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
   bool volume;                         /* the options name all three */
+  fg__polar polar;                     /* they are a speed and a direction */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* units of a speed, unlike a stress or a flux */
@@ -211,6 +213,24 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
 /* The third component of a pair: a variable of the same dimensions and units, with a
  * matching name; NULL: none. */
 const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
+
+/* polar.c. Whether a variable is a direction, and what it is measured in. */
+bool fg__nc_direction(fg__polar *out, const fg__nc_variable *v);
+
+/* Fills in components and polar where a variable is a direction and has a speed at its
+ * places, by their standard names; else false. */
+bool fg__nc_find_polar(fg__nc_pair *out, const fg__nc_file *file,
+                       const fg__nc_variable *direction);
+
+/* Makes a named pair of a speed and a direction, in either order, polar. ARGUMENT (a
+ * direction beside what is no speed). */
+fg_status fg__nc_settle_polar(fg__nc_pair *pair, const fg__nc_file *file);
+
+/* The name of a component; NULL: a speed and a direction become components without. */
+const char *fg__nc_component_name(const fg__nc_pair *pair, int k);
+
+/* What a polar pair is, and which rule says so. */
+void fg__nc_polar_words(char *out, size_t size, const fg__nc_pair *pair);
 
 /* Sets what a variable's attributes tell of it. */
 void fg__nc_classify(fg__nc_variable *variable);
@@ -284,11 +304,19 @@ typedef struct fg__nc_grid {
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
+/* Makes a pair unusable whose components lie more than half a cell apart. */
+void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair);
+
 /* Makes the pair unusable where a variable is not numeric, or has more samples than a
  * file of this size can hold. */
 void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v);
+
+/* polar.c. Makes a polar pair unusable where its unit or north's direction is not
+ * known. */
+void fg__nc_check_polar(fg__nc_grid *grid, const fg__nc_pair *pair,
+                        const fg_read_options *options);
 
 /* axes.c. Reads a coordinate along an axis, makes it ascending, and finds its period. */
 fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
@@ -318,6 +346,10 @@ fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
 
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
+
+/* Whether names are equal, or differ in a u of one where the other has a v ("depthu" and
+ * "depthv" of NEMO). */
+bool fg__nc_named_alike(const char *of_u, const char *of_v);
 
 /* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
  * dimensions and perhaps one for each time. One of the same file is preferred, then one
@@ -447,6 +479,9 @@ typedef struct fg__nc_words {
   char title[FG__NC_TEXT], units[FG__NC_TEXT];
   char time[FG__NC_TEXT], level[FG__NC_TEXT]; /* "": none */
 } fg__nc_words;
+
+/* The units of a vector as on an axis label: those of a component that has some. */
+void fg__nc_velocity_units(char *out, size_t size, const fg__nc_pair *pair);
 
 fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,

@@ -25,6 +25,7 @@ typedef struct plane_file {
   bool east;     /* components along east and north */
   bool has_positions;
   double wrong; /* added to the longitudes, degrees */
+  bool polar;   /* speed and direction from where the wind comes; of `east` */
 } plane_file;
 
 /* A wind of 3 along x and 4 along y everywhere, or its components along east and
@@ -44,6 +45,10 @@ static void write_plane(sample_file *f, const plane_file *how)
     const double turn = (longitude[n] - MERIDIAN) * RADIANS; /* angle of east from x */
     u[n] = how->east ? 3.0 * cos(turn) + 4.0 * sin(turn) : 3.0;
     v[n] = how->east ? 4.0 * cos(turn) - 3.0 * sin(turn) : 4.0;
+    if (how->polar) {
+      v[n] = atan2(-u[n], -v[n]) / RADIANS;
+      u[n] = 5.0;
+    }
     longitude[n] += how->wrong;
   }
   const char *units = how->unit == 1.0 ? "m" : "km";
@@ -57,11 +62,16 @@ static void write_plane(sample_file *f, const plane_file *how)
   sample_number(f, crs, "scale_factor_at_projection_origin", NC_DOUBLE, 1.0);
   sample_number(f, crs, "earth_radius", NC_DOUBLE, EARTH);
   for (int k = 0; k < 2; ++k) {
-    const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 2, plane);
+    const int id = sample_variable(f,
+                                   how->polar ? (k == 0 ? "ws" : "wd")
+                                   : k == 0   ? "u"
+                                              : "v",
+                                   NC_FLOAT, 2, plane);
     sample_text(f, id, "grid_mapping", "crs");
     sample_text(f, id, "standard_name",
-                how->east ? (k == 0 ? "eastward_wind" : "northward_wind")
-                          : (k == 0 ? "x_wind" : "y_wind"));
+                how->polar  ? (k == 0 ? "wind_speed" : "wind_from_direction")
+                : how->east ? (k == 0 ? "eastward_wind" : "northward_wind")
+                            : (k == 0 ? "x_wind" : "y_wind"));
     sample_put(f, id, k == 0 ? u : v);
   }
   for (int k = 0; k < 2 && how->has_positions; ++k) {
@@ -74,10 +84,11 @@ static void write_plane(sample_file *f, const plane_file *how)
 
 static void projections_come_with_the_field(void **state)
 {
-  static const plane_file files[] = {{1.0, 0.0, false, false, 0.0},
-                                     {1000.0, 0.0, false, true, 0.0},
-                                     {1.0, 0.0, true, false, 0.0},
-                                     {1000.0, 70000.0, true, true, 0.0}};
+  static const plane_file files[] = {{1.0, 0.0, false, false, 0.0, false},
+                                     {1000.0, 0.0, false, true, 0.0, false},
+                                     {1.0, 0.0, true, false, 0.0, false},
+                                     {1000.0, 70000.0, true, true, 0.0, false},
+                                     {1.0, 0.0, true, false, 0.0, true}};
   sample_file *f = *state;
   for (size_t n = 0; n < sizeof files / sizeof *files; ++n) {
     write_plane(f, &files[n]);
@@ -105,7 +116,7 @@ static void projections_come_with_the_field(void **state)
 static void positions_go_before_a_wrong_projection(void **state)
 {
   sample_file *f = *state;
-  write_plane(f, &(plane_file){1.0, 0.0, false, true, 25.0});
+  write_plane(f, &(plane_file){1.0, 0.0, false, true, 25.0, false});
   fg_field *field = read_with(f, NULL);
   assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
   assert_null(fg_field_contents(field)->projection);

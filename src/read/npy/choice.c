@@ -118,21 +118,22 @@ static void take_places(fg__npy_choice *out, fg__npy_file *file,
 
 static fg_status fail_polar(const fg__npy_file *file, const fg__table_vector *named)
 {
-  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-           "%s: %s and %s are a speed and a direction, which are read from tables only",
-           file->path, file->array[named->velocity[0]].name,
-           file->array[named->velocity[1]].name);
+  fg__fail(
+      file->context, FG_STATUS_UNSUPPORTED,
+      "%s: %s and %s are a speed and a direction, which are not read from NumPy files",
+      file->path, file->array[named->velocity[0]].name,
+      file->array[named->velocity[1]].name);
   fg__hint(file->context,
            "save u = %sspeed * sin(direction) and v = %sspeed * "
            "cos(direction)",
-           named->from ? "-" : "", named->from ? "-" : "");
+           named->polar.sense < 0 ? "-" : "", named->polar.sense < 0 ? "-" : "");
   return FG_STATUS_UNSUPPORTED;
 }
 
 static fg_status choose_pair(fg__npy_choice *out, fg__npy_file *file,
                              const fg__table_vector *named)
 {
-  if (named->polar)
+  if (named->polar.sense != 0)
     return fail_polar(file, named);
   *out = (fg__npy_choice){
       .component_axis = -1, .dimension = named->dimension, .found_by = named->found_by};

@@ -64,7 +64,7 @@ static fg_field_arrays words_of(const fg__table *table, const fg__table_vector *
     words.scale = FG_SCALE_PLAIN;
   for (int k = 0; k < vector->dimension && k < 3; ++k) {
     const fg__table_column *place = &table->column[vector->position[k]];
-    if (!vector->polar)
+    if (vector->polar.sense == 0)
       words.velocity_name[k] = table->column[vector->velocity[k]].name;
     words.axis_name[k] = place->name;
     words.axis_units[k] = place->units;

@@ -5,6 +5,7 @@
 #define FG__TABLE_H
 
 #include "read/points/points.h"
+#include "read/polar.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -108,8 +109,7 @@ typedef struct fg__table_vector {
   int time;  /* when the row was measured */
   int level; /* in 2D: at which height or depth */
   bool geographic;
-  bool polar; /* velocity is speed and direction */
-  bool from;  /* the direction is where it comes from */
+  fg__polar polar; /* velocity is speed and direction */
   const char *found_by;
 } fg__table_vector;
 
