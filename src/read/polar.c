@@ -1,12 +1,12 @@
 #include "read/polar.h"
 
+#include "base/angle.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-
-#include "base/angle.h"
 
 static const double MOST_RADIANS = 720.0 * FG__RADIANS;
 

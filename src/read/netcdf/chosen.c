@@ -75,6 +75,57 @@ static fg_status select_sample(size_t *out, const fg__nc_file *file,
   return status;
 }
 
+/* The values or names of a dimension's samples; NULL: none. *values and *text are for
+ * free(), also after a failure. */
+static fg_status read_values(fg_axis_value **values, char **text, const fg__nc_file *file,
+                             int dimension)
+{
+  const size_t count = file->dimensions[dimension].length;
+  fg_status status =
+      fg__nc_axis_values(values, text, file, coordinate_of(file, dimension), count);
+  if (status == FG_STATUS_OK && !*values) {
+    free(*text);
+    *text = NULL;
+    status = fg__nc_labels(values, text, file, dimension);
+  }
+  return status;
+}
+
+/* "2" of "number 2". */
+static const char *without_name(const char *words, const char *name)
+{
+  const size_t length = strlen(name);
+  return strncmp(words, name, length) == 0 && words[length] == ' ' ? words + length + 1
+                                                                   : words;
+}
+
+fg_status fg__nc_offer_samples(char *out, size_t size, const fg__nc_file *file,
+                               int dimension)
+{
+  enum { FIRST = 4 };
+  const fg__nc_dimension *d = &file->dimensions[dimension];
+  fg_axis_value *values = NULL;
+  char *text = NULL;
+  fg_status status = d->length > 0 && d->length <= MOST_SAMPLES
+                         ? read_values(&values, &text, file, dimension)
+                         : FG_STATUS_OK;
+  if (status == FG_STATUS_OK && values) {
+    int used = snprintf(out, size, "--at %.80s=WHICH reads one of them:", d->name);
+    for (size_t n = 0; n < d->length && (size_t)used < size; ++n) {
+      if (n == FIRST && d->length > FIRST + 1)
+        n = d->length - 1;
+      const char *between = n == 0 ? "" : n > FIRST ? ", ...," : ",";
+      used += snprintf(out + used, size - (size_t)used, "%s %.40s", between,
+                       without_name(values[n].words, d->name));
+    }
+  } else if (status == FG_STATUS_OK) {
+    snprintf(out, size, "--at %.80s=0 reads the first of them", d->name);
+  }
+  free(values);
+  free(text);
+  return status;
+}
+
 /* Makes a dimension one of a single sample. */
 static fg_status choose_sample(fg__nc_file *file, int dimension, const char *which)
 {
@@ -86,12 +137,7 @@ static fg_status choose_sample(fg__nc_file *file, int dimension, const char *whi
                     d->length ? "%s: '%.100s' has %zu samples; one can be chosen of %d"
                               : "%s: dimension '%.100s' is empty",
                     path_of(file, d), d->name, d->length, MOST_SAMPLES);
-  fg_status status =
-      fg__nc_axis_values(&values, &text, file, coordinate_of(file, dimension), d->length);
-  if (status == FG_STATUS_OK && !values) {
-    free(text);
-    status = fg__nc_labels(&values, &text, file, dimension);
-  }
+  fg_status status = read_values(&values, &text, file, dimension);
   if (status == FG_STATUS_OK)
     status = select_sample(&d->chosen, file, d, which, values);
   if (status == FG_STATUS_OK) {

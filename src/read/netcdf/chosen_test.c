@@ -204,6 +204,8 @@ static void choices_are_checked(void **state)
       {"member=0,version=0,letters=1", "'u' and 'v' have no dimension 'letters'",
        FG_STATUS_ARGUMENT},
       {"member=0,version=0,x=1", "its x axis 'x' has only 1", FG_STATUS_UNSUPPORTED}};
+  static const char *const hints[] = {"--at member=WHICH reads one of them: 0, 10, 20",
+                                      "--at version=0 reads the first of them"};
   sample_file *f = *state;
   make_ensemble(f, 0);
   for (size_t n = 0; n < sizeof faults / sizeof *faults; ++n) {
@@ -216,6 +218,8 @@ static void choices_are_checked(void **state)
       fail_msg("%s: %d, \"%s\"", faults[n].at ? faults[n].at : "", (int)status,
                fg_context_message(f->context));
     assert_null(field);
+    if (n < sizeof hints / sizeof *hints)
+      assert_string_equal(fg_context_hint(f->context), hints[n]);
   }
   assert_int_equal(fg_field_read(&(fg_field *){NULL}, f->context, "synth:saddle",
                                  &(fg_read_options){.at = "member=1"}),

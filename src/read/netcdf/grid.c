@@ -78,8 +78,8 @@ void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
     grid->time_variable = fg__nc_date_texts(file, v->dimension[grid->time]);
 }
 
-static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
-                            const fg__nc_variable *v)
+static fg_status find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
+                                 const fg__nc_variable *v)
 {
   int position[FG__NC_ROLES];
   const int extra = fg__nc_roles(position, file, v);
@@ -88,16 +88,14 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
     fg__set_unusable(grid->unusable,
                      "dimension '%.120s' of %zu samples is neither time nor level",
                      d->name, d->length);
-    snprintf(grid->hint, sizeof grid->hint, "--at %.80s=0 reads the first of them",
-             d->name);
-    return;
+    return fg__nc_offer_samples(grid->hint, sizeof grid->hint, file, v->dimension[extra]);
   }
   if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0) {
     fg__set_unusable(grid->unusable,
                      "'%.120s' has only one dimension in space: a profile, a section "
                      "or an unstructured mesh",
                      v->name);
-    return;
+    return FG_STATUS_OK;
   }
   for (int k = 0; k < 2; ++k) {
     const int dimension = v->dimension[position[k]];
@@ -117,6 +115,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
   fg__nc_set_index_axes(grid, file, v);
+  return FG_STATUS_OK;
 }
 
 const fg__nc_variable *fg__nc_axis_coordinate(const fg__nc_file *file,
@@ -350,12 +349,12 @@ static fg_status find_grid(fg__nc_grid *grid, const fg__nc_file *file,
   for (int k = 0; k < 2 && is_usable(grid); ++k)
     check_lengths(grid, file, pair->component[k]);
   if (is_usable(grid) && !grid->unstructured)
-    find_dimensions(grid, file, pair->component[0]);
+    status = find_dimensions(grid, file, pair->component[0]);
   fg__nc_quantity velocity;
-  if (is_usable(grid) && grid->unstructured)
+  if (status == FG_STATUS_OK && is_usable(grid) && grid->unstructured)
     check_units(grid, pair, &velocity);
-  if (!is_usable(grid) || grid->unstructured)
-    return FG_STATUS_OK;
+  if (status != FG_STATUS_OK || !is_usable(grid) || grid->unstructured)
+    return status;
   status = find_on_axes(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->off_axes)
     status = fg__nc_mesh_find(grid, file, pair, options);

@@ -120,6 +120,11 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text);
 fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
                               bool of_time, char *words, size_t size);
 
+/* Writes how one sample of a dimension that is neither time nor level is chosen, and of
+ * which. MEMORY, FILE_FORMAT. */
+fg_status fg__nc_offer_samples(char *out, size_t size, const fg__nc_file *file,
+                               int dimension);
+
 /* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
  * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
  * free(), also after a failure). MEMORY, FILE_FORMAT. */

@@ -1,13 +1,13 @@
 /* Speeds and directions in place of components: by CF standard names ("wind_speed" and
  * "wind_from_direction"), or by the units of a direction that the options name. */
+#include "base/angle.h"
+#include "read/mesh/mesh.h"
+#include "read/unstructured/unstructured.h"
+
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
-
-#include "base/angle.h"
-#include "read/mesh/mesh.h"
-#include "read/unstructured/unstructured.h"
 
 /* A standard name; "" where it is one of a quality ("wind_speed status_flag"). */
 static void standard_name(char out[FG__NC_TEXT], const fg__nc_variable *v)
