@@ -270,6 +270,36 @@ static char *text_at(caption_texts *texts, int k)
   return words[k];
 }
 
+/* Keeps of a time what another has, too: the day of dates, or what stands in brackets at
+ * the end, as in "16 May (climatology)". */
+static void keep_shared_time(char time[FG__CAPTION_BYTES], const char *other)
+{
+  const char *end = strrchr(time, '('), *others = strrchr(other, '(');
+  if (strcmp(time, other) == 0)
+    return;
+  if (date_length(time) && date_length(other) && strncmp(time, other, 10) == 0)
+    time[10] = '\0';
+  else if (end && others && strcmp(end, others) == 0)
+    memmove(time, end, strlen(end) + 1);
+  else
+    time[0] = '\0';
+}
+
+/* Takes what all panels share out of one's time, and brackets round it. */
+static void leave_out_shared_time(char time[FG__CAPTION_BYTES], const char *shared)
+{
+  char *at = *shared && strcmp(time, shared) != 0 ? strstr(time, shared) : NULL;
+  if (at == time) {
+    at += strlen(shared);
+    at += strspn(at, " ");
+    memmove(time, at, strlen(at) + 1);
+  } else if (at) {
+    at[-1] = '\0';
+    while (--at > time && at[-1] == ' ')
+      at[-1] = '\0';
+  }
+}
+
 /* The texts that all panels have in common, "" for others. */
 static void collect_common(caption_texts *out, const fg__caption_panel *panel, int count)
 {
@@ -277,9 +307,17 @@ static void collect_common(caption_texts *out, const fg__caption_panel *panel, i
   collect_texts(out, &panel[0]);
   for (int n = 1; n < count; ++n) {
     collect_texts(&other, &panel[n]);
+    keep_shared_time(out->time, other.time);
+    if (out->time[0])
+      snprintf(other.time, sizeof other.time, "%s", out->time);
     for (int k = 0; k < TEXTS; ++k)
       if (strcmp(text_at(out, k), text_at(&other, k)) != 0)
         text_at(out, k)[0] = '\0';
+  }
+  const size_t length = strlen(out->time);
+  if (out->time[0] == '(' && out->time[length - 1] == ')') {
+    memmove(out->time, out->time + 1, length - 2);
+    out->time[length - 2] = '\0';
   }
 }
 
@@ -389,6 +427,7 @@ void fg__caption_write_label(char label[FG__CAPTION_BYTES],
     return;
   }
   collect_common(&common, panel, count);
+  leave_out_shared_time(own.time, common.time);
   for (int n = 0; n < TEXTS; ++n)
     if (strcmp(text_at(&own, n), text_at(&common, n)) != 0)
       add_part(rest, text_at(&own, n) == own.arrows

@@ -220,23 +220,34 @@ static void panels_are_told_apart(void **state)
   fg_icons_destroy(more);
 }
 
-/* Where one date has an hour, all have. */
-static void dates_of_panels_go_equally_far(void **state)
+/* Where one date has an hour, all have; what all share is in the subtitle alone. */
+static void times_of_panels_are_told_in_one_way(void **state)
 {
   (void)state;
   static const struct {
-    const char *time[3], *label[3];
+    const char *time[3], *label[3], *shared;
   } cases[] = {
       {{"2016-01-14", "2016-01-14 01:00", "2016-01-15"},
-       {"(a) 2016-01-14 00:00", "(b) 2016-01-14 01:00", "(c) 2016-01-15 00:00"}},
+       {"(a) 2016-01-14 00:00", "(b) 2016-01-14 01:00", "(c) 2016-01-15 00:00"},
+       ""},
       {{"2016-01-14 06:00", "2016-01-14", "2016-01-14 06:00:30"},
-       {"(a) 2016-01-14 06:00:00", "(b) 2016-01-14 00:00:00", "(c) 2016-01-14 06:00:30"}},
+       {"(a) 06:00:00", "(b) 00:00:00", "(c) 06:00:30"},
+       "2016-01-14"},
+      {{"16 May (climatology)", "16 June (climatology)", "16 July (climatology)"},
+       {"(a) 16 May", "(b) 16 June", "(c) 16 July"},
+       "climatology"},
+      {{"16 May (climatology)", "16 June (climatology)", "16 July (mean)"},
+       {"(a) 16 May (climatology)", "(b) 16 June (climatology)", "(c) 16 July (mean)"},
+       ""},
       {{"2016-01-14", "2016-01-15", "t = 2.5"},
-       {"(a) 2016-01-14", "(b) 2016-01-15", "(c) t = 2.5"}},
+       {"(a) 2016-01-14", "(b) 2016-01-15", "(c) t = 2.5"},
+       ""},
       {{"January", "2016-01-14 01:00", NULL},
-       {"(a) January", "(b) 2016-01-14 01:00", "(c)"}},
+       {"(a) January", "(b) 2016-01-14 01:00", "(c)"},
+       ""},
   };
-  char label[FG__CAPTION_BYTES];
+  char label[FG__CAPTION_BYTES], title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  const char *const given[2] = {NULL, NULL};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
     fg_field_arrays field[3];
     fg__caption_panel panel[3];
@@ -251,6 +262,8 @@ static void dates_of_panels_go_equally_far(void **state)
       fg__caption_write_label(label, panel, 3, k, NULL);
       assert_string_equal(label, cases[n].label[k]);
     }
+    fg__caption_write_common(title, subtitle, panel, 3, given);
+    assert_string_equal(subtitle, cases[n].shared);
   }
 }
 
@@ -286,7 +299,7 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_without_a_value_leave_nothing, context_set_up,
                                       context_tear_down),
-      cmocka_unit_test(dates_of_panels_go_equally_far),
+      cmocka_unit_test(times_of_panels_are_told_in_one_way),
       cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
                                       context_tear_down),
       cmocka_unit_test(letters_go_on_after_z),

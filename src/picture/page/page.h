@@ -111,6 +111,14 @@ double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, doubl
  * y. */
 double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
                                  double x, double y);
+/* Gives the text just added, which does not end at its x, another size; where it begins,
+ * or its middle, stays. */
+void fg__page_resize_text(fg__page *page, cairo_t *ruler, double size);
+/* Breaks a text at spaces into at most `limit` lines of a width; the last takes the rest.
+ * Lines that are too long end with an ellipsis. Returns whether none did. */
+bool fg__page_break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                          cairo_t *ruler, const char *text, double size, bool bold,
+                          double width);
 /* Breaks a text at spaces into at most `limit` lines of a width, in a size that is so far
  * below `size` as it must, at least two thirds of it; what is too long even then ends
  * with an ellipsis. Returns the size. */

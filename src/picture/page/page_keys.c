@@ -105,23 +105,6 @@ static double label_room(const bar_place *at)
               2.0 * fmin(middle - at->label_low, at->label_high - middle));
 }
 
-/* Gives the text just added the label's size; its baseline stays. */
-static void set_size(fg__page *page, cairo_t *ruler, double size)
-{
-  fg__page_text *text = &page->text[page->text_count - 1];
-  const double width = fg__text_width(ruler, text->text, size, false);
-  text->size = size;
-  if (text->upwards) {
-    text->y = 0.5 * (text->box.y0 + text->box.y1 + width);
-    text->box = (fg__page_box){text->x - FG__TEXT_ASCENT * size, text->y - width,
-                               text->x + FG__TEXT_DESCENT * size, text->y};
-    return;
-  }
-  text->x = 0.5 * (text->box.x0 + text->box.x1 - width);
-  text->box = (fg__page_box){text->x, text->y - FG__TEXT_ASCENT * size, text->x + width,
-                             text->y + FG__TEXT_DESCENT * size};
-}
-
 /* An end beyond which there are speeds is a point; the bar is that much shorter. */
 static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
                        double *end)
@@ -163,7 +146,7 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
     baseline += line_height * (k ? label.size : em);
     fg__page_add_text(page, ruler, label.line[k], x0 + 0.5 * length, baseline,
                       FG__ALIGN_MIDDLE);
-    set_size(page, ruler, label.size);
+    fg__page_resize_text(page, ruler, label.size);
   }
   room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
 }
@@ -250,7 +233,7 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   for (int k = 0; k < label.count; ++k) {
     double x = end + (k ? 0.0 : 0.35 * em) + FG__TEXT_ASCENT * em;
     fg__page_add_text_upwards(page, ruler, label.line[k], x, 0.5 * (y0 + y1));
-    set_size(page, ruler, label.size);
+    fg__page_resize_text(page, ruler, label.size);
     end = x + FG__TEXT_DESCENT * em;
   }
   return end;
