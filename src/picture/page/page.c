@@ -29,8 +29,12 @@ static const double shortest_caption = 8.0;
 /* Of lengths that are sums of the same lengths, points. */
 static const double rounding = 1e-9;
 
-/* Passes in which the margins may grow until everything fits; three is usual. */
-enum { PASSES = 12 };
+/* The widths that are tried for one at which a page has its key. */
+static const double key_step = 1.05, most_times = 1e3;
+
+/* Passes in which the margins may grow until everything fits; three is usual, small pages
+ * need more. */
+enum { PASSES = 24 };
 
 double fg__page_font_size(const fg__page_plan *plan)
 {
@@ -54,16 +58,19 @@ typedef struct caption {
   double title_size, size;
 } caption;
 
-/* Titles that are too long for their lines shrink, so far as they are still read. */
-static void break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
+/* Titles that are too long for their lines shrink, so far as they are still read. Whether
+ * none does. */
+static bool break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
                           double em, double width)
 {
+  const double title_size = 1.1 * em;
   out->title_size = fg__page_fit_lines(out->line, FG__TITLE_LINES, &out->titles, ruler,
-                                       plan->title, 1.1 * em, true, width);
+                                       plan->title, title_size, true, width);
   out->size =
       fg__page_fit_lines(out->line + out->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
                          &out->count, ruler, plan->subtitle, em, false, width);
   out->count += out->titles;
+  return out->title_size == title_size && out->size == em;
 }
 
 void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
@@ -71,11 +78,14 @@ void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_pl
 {
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
-  double width = page->width - pad - start;
+  const double widest = page->width - 2.0 * pad;
   caption lines;
-  if (width < shortest_caption * em)
+  if (widest < shortest_caption * em)
     return;
-  break_caption(&lines, plan, ruler, em, width);
+  if (!break_caption(&lines, plan, ruler, em, page->width - pad - start)) {
+    start = pad;
+    break_caption(&lines, plan, ruler, em, widest);
+  }
   double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;
   for (int k = lines.count - 1; k >= 0; --k) {
     fg__page_text *added = fg__page_next_text(page, lines.line[k]);
@@ -187,7 +197,7 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
                 room.bottom <= margins.bottom + spare &&
                 between[0] <= gap[0] + rounding && between[1] <= gap[1] + rounding;
     if (fits)
-      return true;
+      return !parts->color_key || page->has_color_key;
     margins.left = fmax(margins.left, room.left + edge);
     margins.right = fmax(margins.right, room.right + edge);
     margins.top = fmax(margins.top, room.top + edge);
@@ -225,6 +235,26 @@ void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler)
   fg__page_layout_panels(out, NULL, plan, ruler);
 }
 
+double fg__page_key_width(fg__page *page, fg__page *panel, const fg__page_plan *plan)
+{
+  fg__page_plan wider = *plan;
+  cairo_t *ruler = fg__text_ruler();
+  const double width =
+      plan->width > 0.0 || plan->height > 0.0 ? plan->width : default_width;
+  double times = 1.0;
+  fg__page_layout_panels(page, panel, plan, ruler);
+  if (!plan->color_key || plan->no_frame || page->has_color_key)
+    page->width = 0.0;
+  while (page->width > 0.0 && !page->has_color_key && times < most_times) {
+    times *= key_step;
+    wider.width = times * width;
+    wider.height = times * plan->height;
+    fg__page_layout_panels(page, panel, &wider, ruler);
+  }
+  cairo_destroy(ruler);
+  return page->width;
+}
+
 void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
                             cairo_t *ruler)
 {
@@ -242,14 +272,20 @@ void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan 
                               (plan->title[0] || plan->subtitle[0]) && !plan->no_frame,
                           .sides = {true, true, true, true}};
   bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.caption,
-                               &parts.color_key, &parts.axes};
+                               &parts.axes,     &parts.color_key,   &parts.axes};
   size_t count = sizeof dispensable / sizeof *dispensable;
   double least = least_share * bare_scale(plan);
   for (size_t k = 0; k < count; ++k) {
     parts.keys_below = keys_below(out, panel, plan, parts, ruler);
     if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
       return;
+    /* below, they make a page of free height no narrower */
+    parts.keys_below = true;
+    if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
+      return;
     *dispensable[k] = false;
+    if (dispensable[k] == &parts.color_key) /* which may have left the axes no room */
+      parts.axes = !plan->no_frame;
   }
   fg__page_plan bare = *plan;
   if (!lay_out(out, panel, &bare, &parts, ruler)) {

@@ -95,6 +95,11 @@ void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
 void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
                             cairo_t *ruler);
 
+/* The width from which on, to 5 %, a page of this shape has its colour key; 0 where the
+ * page of the plan has it, or none is wanted. Sets page and panel to those of that width.
+ */
+double fg__page_key_width(fg__page *page, fg__page *panel, const fg__page_plan *plan);
+
 /* Room round the frame, points. */
 typedef struct fg__margins {
   double left, right, top, bottom;

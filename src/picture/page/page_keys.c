@@ -9,8 +9,9 @@ static const double label_gap = 0.3;
 static const double half_digit = 0.36;
 static const double line_height = 1.25;
 static const double key_gap = 1.4;      /* between the frame's labels and a key */
-static const double shortest_bar = 6.0; /* two ticks and their labels */
-static const double longest_bar = 36.0; /* longer ones only draw the eye */
+static const double shortest_bar = 4.5; /* two ticks and their labels */
+static const double shortest_beside_size = 12.0; /* below the frame */
+static const double longest_bar = 36.0;          /* longer ones only draw the eye */
 static const double least_short_bar = 14.0;
 static const double short_bar_share = 0.5; /* of the frame's side */
 static const double between_keys = 3.0, frame_gap = 0.7;
@@ -181,7 +182,7 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
   double room_for_bar = wide;
   if (has_size && parts->color_key)
     room_for_bar = wide - key.width - between_keys * em;
-  if (has_size && parts->color_key && room_for_bar < shortest_bar * em) {
+  if (has_size && parts->color_key && room_for_bar < shortest_beside_size * em) {
     has_size = false;
     room_for_bar = wide;
   }

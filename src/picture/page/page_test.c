@@ -131,6 +131,65 @@ static void a_short_key_is_in_the_middle(void **state)
   }
 }
 
+/* Numbers at the colour key of a page without axes and size key. */
+static int key_numbers(const fg__page *page)
+{
+  int count = 0;
+  for (int k = 0; k < page->text_count; ++k) {
+    char *end;
+    strtod(page->text[k].text, &end);
+    count += end > page->text[k].text && page->text[k].box.y0 > page->color_key.y1;
+  }
+  return count;
+}
+
+/* Below the frame it makes a page no wider; one number tells no scale. */
+static void a_narrow_page_has_a_colour_key(void **state)
+{
+  (void)state;
+  static const double shapes[][2] = {{360, 170}, {40, 40}, {30, 50}};
+  static const double fastest[] = {8.0, 0.075, 4000.0};
+  for (int s = 0; s < 3; ++s) {
+    fg__page_plan plan = plan_of(70, 0, shapes[s][0], shapes[s][1], 0, "Wind");
+    fg__axis_of_numbers(&plan.speed, 0.16 * fastest[s], fastest[s], fastest[s],
+                        "mean speed", "");
+    fg__page *page = lay_out(&plan);
+    check_page(page, &plan);
+    assert_true(page->has_color_key && !page->color_key_upright);
+    assert_true(key_numbers(page) >= 2);
+    assert_true(fg__page_key_width(page, NULL, &plan) == 0.0);
+    free(page);
+  }
+}
+
+static void a_page_without_key_tells_from_which_width_on_it_has_one(void **state)
+{
+  (void)state;
+  static const double sizes[][2] = {{100, 0}, {100, 90}, {0, 0}};
+  for (int s = 0; s < 3; ++s) {
+    fg__page_plan plan = plan_of(sizes[s][0], sizes[s][1], 40, 40, 0, "Wind");
+    plan.font_size = s == 2 ? 150.0 : 40.0;
+    fg__page *page = lay_out(&plan);
+    assert_false(page->has_color_key);
+    const double before = page->width;
+    const double width = fg__page_key_width(page, NULL, &plan);
+    assert_true(page->has_color_key && page->width == width && width > before);
+    plan.height *= width / before;
+    plan.width = width;
+    cairo_t *ruler = fg__text_ruler();
+    fg__page_layout(page, &plan, ruler);
+    assert_true(page->has_color_key);
+    plan.height *= 0.9;
+    plan.width *= 0.9;
+    fg__page_layout(page, &plan, ruler);
+    assert_false(page->has_color_key);
+    plan.color_key = false;
+    assert_true(fg__page_key_width(page, NULL, &plan) == 0.0);
+    cairo_destroy(ruler);
+    free(page);
+  }
+}
+
 /* A line below the title that is too long is broken between its parts. */
 static void captions_break_between_their_parts(void **state)
 {
@@ -270,6 +329,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nothing_collides_on_any_page),
       cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(a_narrow_page_has_a_colour_key),
+      cmocka_unit_test(a_page_without_key_tells_from_which_width_on_it_has_one),
       cmocka_unit_test(captions_break_between_their_parts),
       cmocka_unit_test(a_short_key_is_in_the_middle),
       cmocka_unit_test(long_titles_and_labels_are_broken_or_shrink),

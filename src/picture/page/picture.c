@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -285,6 +286,18 @@ static fg_status check_panels(fg_context *context, const char *path,
   return FG_STATUS_OK;
 }
 
+static fg_status tell_key_width(double *out, fg_context *context,
+                                const fg__figure *figure)
+{
+  const size_t panels = (size_t)figure->plan.panels;
+  fg__page *page = fg__allocate(panels + 1, sizeof *page);
+  if (!page)
+    return fg__fail_memory(context, "a page's layout", (panels + 1) * sizeof *page);
+  *out = fg__page_key_width(page, panels ? page + 1 : NULL, &figure->plan);
+  free(page);
+  return FG_STATUS_OK;
+}
+
 static fg_status write(fg_context *context, const char *path, const fg_panel *panel,
                        int count, bool several, const fg_picture_options *options)
 {
@@ -299,6 +312,8 @@ static fg_status write(fg_context *context, const char *path, const fg_panel *pa
         fg__scene_reference(&figure->reference, context, &figure->page, &figure->typical);
   if (!status)
     status = render(context, path, figure);
+  if (!status && options->key_width)
+    status = tell_key_width(options->key_width, context, figure);
   fg__figure_destroy(figure);
   return status;
 }
