@@ -64,41 +64,43 @@ static void components_of_the_title_are_not_named_again(void **state)
   const char *const wanted[2] = {NULL, NULL};
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(title, "vel");
+  assert_string_equal(title, "Vel");
   assert_string_equal(subtitle, "2 arrows");
   field.velocity_name[1] = "vel_z"; /* a plane of a volume */
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
   assert_string_equal(subtitle, "vel_x, vel_z \xC2\xB7 2 arrows");
+  field.velocity_name[1] = "vel_y";
+  field.title = "Pipe flow";
+  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+  assert_string_equal(subtitle, "vel \xC2\xB7 2 arrows");
+  field.velocity_name[1] = "vel_z";
   field.title = "vel_x, vel_z"; /* of a file without words for them */
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
   assert_string_equal(subtitle, "2 arrows");
   fg_icons_destroy(icons);
 }
 
-/* Of a field on the Earth, whose file describes it; a title that was asked for stays. */
+/* A name that is no word stays, and a title that was asked for. */
 static void a_title_in_words_begins_with_a_capital(void **state)
 {
   static const struct {
     const char *title, *wanted, *expected;
-    fg_scale scale;
   } cases[] = {
-      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_GEO},
-      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_MAP},
-      {"wind at 10 m", "{title}", "wind at 10 m", FG_SCALE_GEO},
-      {"vortex (analytic)", NULL, "vortex (analytic)", FG_SCALE_PLAIN},
-      {"u10, v10", NULL, "u10, v10", FG_SCALE_GEO},
-      {"ua_850", NULL, "ua_850", FG_SCALE_GEO},
-      {"ua, va", NULL, "ua, va", FG_SCALE_GEO},
-      {"sea-surface wind", NULL, "Sea-surface wind", FG_SCALE_GEO},
-      {"horizontalVelX, horizontalVelY", NULL, "horizontalVelX, horizontalVelY",
-       FG_SCALE_GEO},
+      {"wind at 10 m", NULL, "Wind at 10 m"},
+      {"velocity", NULL, "Velocity"},
+      {"wind at 10 m", "{title}", "wind at 10 m"},
+      {"vortex (analytic)", NULL, "vortex (analytic)"},
+      {"u10, v10", NULL, "u10, v10"},
+      {"ua_850", NULL, "ua_850"},
+      {"ua, va", NULL, "ua, va"},
+      {"cavity.old", NULL, "cavity.old"},
+      {"sea-surface wind", NULL, "Sea-surface wind"},
+      {"horizontalVelX, horizontalVelY", NULL, "horizontalVelX, horizontalVelY"},
   };
   fg_icons *icons = lines(*state, 2);
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    const fg_field_arrays field = {.dimension = 2,
-                                   .velocity_name = {"u", "v"},
-                                   .title = cases[n].title,
-                                   .scale = cases[n].scale};
+    const fg_field_arrays field = {
+        .dimension = 2, .velocity_name = {"u", "v"}, .title = cases[n].title};
     char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
     const char *const wanted[2] = {cases[n].wanted, NULL};
     fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
