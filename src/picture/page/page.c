@@ -139,8 +139,9 @@ static bool place_frame(fg__page *page, const fg__page_plan *plan,
   return true;
 }
 
-static void clear(fg__page *page)
+static void clear(fg__page *page, const fg__page_parts *parts)
 {
+  page->has_degrees = parts->axes;
   page->text_count = 0;
   page->line_count = 0;
   page->has_color_key = false;
@@ -178,13 +179,13 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
   if (plan->no_frame)
     gap[0] = gap[1] = bare_gap(plan);
   for (int pass = 0; pass < PASSES; ++pass) {
-    clear(page);
+    clear(page, parts);
     if (!place_frame(page, plan, &margins, gap, parts->caption ? 24.0 * em : 0.0))
       return false;
     fg__margins room = {0.0, 0.0, 0.0, 0.0};
     double between[2] = {0.0, 0.0};
     for (int k = 0; panel && k < plan->panels; ++k)
-      clear(&panel[k]);
+      clear(&panel[k], parts);
     fg__page_place_frames(page, panel, plan, gap);
     place_round(page, panel, &room, between, plan, parts, ruler);
     if (parts->color_key || parts->size_key)
@@ -230,6 +231,38 @@ static bool keys_below(fg__page *page, fg__page *panel, const fg__page_plan *pla
   return below > beside;
 }
 
+/* Whether the parts leave the domain its room, the keys where they belong or, where they
+ * make a page of free height no narrower, below. */
+static bool lay_out_well(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                         fg__page_parts *parts, double least, cairo_t *ruler)
+{
+  parts->keys_below = keys_below(out, panel, plan, *parts, ruler);
+  if (lay_out(out, panel, plan, parts, ruler) && out->scale >= least)
+    return true;
+  parts->keys_below = true;
+  return lay_out(out, panel, plan, parts, ruler) && out->scale >= least;
+}
+
+/* Brings back what was left out in vain, before what did not fit was: the caption, say,
+ * of a page that is too narrow. */
+static void bring_back(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                       fg__page_parts *parts, double least, cairo_t *ruler)
+{
+  const bool wanted[] = {plan->title[0] || plan->subtitle[0], parts->axes,
+                         plan->size_key};
+  bool *const part[] = {&parts->caption, &parts->axis_labels, &parts->size_key};
+  for (int k = 0; k < 3; ++k) {
+    const fg__page_parts before = *parts;
+    if (*part[k] || !wanted[k] || plan->no_frame)
+      continue;
+    *part[k] = true;
+    if (!lay_out_well(out, panel, plan, parts, least, ruler)) {
+      *parts = before;
+      lay_out_well(out, panel, plan, parts, least, ruler);
+    }
+  }
+}
+
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler)
 {
   fg__page_layout_panels(out, NULL, plan, ruler);
@@ -273,19 +306,17 @@ void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan 
                           .sides = {true, true, true, true}};
   bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.caption,
                                &parts.axes,     &parts.color_key,   &parts.axes};
-  size_t count = sizeof dispensable / sizeof *dispensable;
+  size_t count = sizeof dispensable / sizeof *dispensable, k = 0;
   double least = least_share * bare_scale(plan);
-  for (size_t k = 0; k < count; ++k) {
-    parts.keys_below = keys_below(out, panel, plan, parts, ruler);
-    if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
-      return;
-    /* below, they make a page of free height no narrower */
-    parts.keys_below = true;
-    if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
-      return;
+  while (k < count && !lay_out_well(out, panel, plan, &parts, least, ruler)) {
     *dispensable[k] = false;
     if (dispensable[k] == &parts.color_key) /* which may have left the axes no room */
       parts.axes = !plan->no_frame;
+    ++k;
+  }
+  if (k < count) {
+    bring_back(out, panel, plan, &parts, least, ruler);
+    return;
   }
   fg__page_plan bare = *plan;
   if (!lay_out(out, panel, &bare, &parts, ruler)) {

@@ -14,7 +14,7 @@ typedef struct fg__page_box {
 
 enum {
   FG__TITLE_LINES = 3,
-  FG__CAPTION_LINES = FG__TITLE_LINES + 2,
+  FG__CAPTION_LINES = FG__TITLE_LINES + 3,
   FG__LABEL_LINES = 3, /* of the colour key */
   FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
   /* ticks of two axes and of the colour key, their labels, the caption, the size key */
@@ -45,6 +45,7 @@ typedef struct fg__page {
   fg__page_box frame;
   double scale; /* points a coordinate unit */
   bool framed;
+  bool has_degrees; /* or the numbers of axes, as far as its panel writes them */
   fg__page_text text[FG__PAGE_TEXTS];
   int text_count;
   fg__page_line line[FG__PAGE_LINES];

@@ -156,6 +156,7 @@ static void a_narrow_page_has_a_colour_key(void **state)
     fg__page *page = lay_out(&plan);
     check_page(page, &plan);
     assert_true(page->has_color_key && !page->color_key_upright);
+    assert_true(has_text(page, "Wind")); /* leaving it out makes no room beside */
     assert_true(key_numbers(page) >= 2);
     assert_true(fg__page_key_width(page, NULL, &plan) == 0.0);
     free(page);

@@ -89,7 +89,9 @@ static fg_status make_map(fg__figure *figure, int k, fg_context *context,
   if (status || options->no_frame)
     return status;
   cairo_t *ruler = fg__text_ruler();
-  fg__map_scene_label(&panel->map, page, &figure->graticule, &panel->scene.arrows, ruler);
+  if (page->has_degrees)
+    fg__map_scene_label(&panel->map, page, &figure->graticule, &panel->scene.arrows,
+                        ruler);
   cairo_destroy(ruler);
   return FG_STATUS_OK;
 }
