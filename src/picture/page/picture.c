@@ -107,9 +107,12 @@ static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
   const bool masked =
       figure->plane.kind == FG__PLANE_NONE || options->no_coast || given->background;
   fg_status status = fg__scene_create(
-      &panel->scene, context, page, given->field, masked, figure->low, figure->high,
+      &panel->scene, context, page, given->field, figure->low, figure->high,
       options->tint ? fg_density_contents(given->density) : NULL,
       options->no_arrows ? NULL : given->icons, &figure->palette, range);
+  if (!status && masked)
+    status = fg__scene_mask(&panel->scene.mask, context, page, given->field, figure->low,
+                            &figure->plane.outline);
   if (!status && (options->skeletons || options->centers))
     status = fg__scene_add_skeletons(&panel->scene, context, page,
                                      fg_field_contents(given->field), figure->low,
