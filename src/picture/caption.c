@@ -206,6 +206,18 @@ static size_t vector_name(const fg_field_arrays *field)
   return length;
 }
 
+/* A number below zero has the minus sign that ticks have. */
+static void write_minus(char text[FG__CAPTION_BYTES])
+{
+  static const char minus[] = "\xE2\x88\x92";
+  char *at = strstr(text, " -");
+  if (!at || !strchr("0123456789.", at[2]) || !at[2] ||
+      strlen(text) + sizeof minus > FG__CAPTION_BYTES)
+    return;
+  memmove(at + sizeof minus, at + 2, strlen(at + 2) + 1);
+  memcpy(at + 1, minus, sizeof minus - 1);
+}
+
 static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
 {
   const fg_field_arrays *field = panel->field;
@@ -226,6 +238,7 @@ static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
   out->has_names = out->has_names && strcmp(out->names, out->title) != 0;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
+  write_minus(out->level);
   out->scale[0] = '\0';
   if (panel->scale_time > 0.0)
     snprintf(out->scale, sizeof out->scale, "scale t = %.3g", panel->scale_time);

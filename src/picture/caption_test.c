@@ -269,6 +269,25 @@ static void times_of_panels_are_told_in_one_way(void **state)
   }
 }
 
+static void a_level_below_zero_has_a_minus_sign(void **state)
+{
+  (void)state;
+  static const char *const cases[][2] = {
+      {"s_rho -0.921875", "s_rho \xE2\x88\x92"
+                          "0.921875"},
+      {"z = -.5", "z = \xE2\x88\x92.5"},
+      {"model -b 2-3", "model -b 2-3"},
+      {"z -", "z -"},
+  };
+  char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg_field_arrays field = {
+        .dimension = 2, .velocity_name = {"u", "v"}, .title = "", .level = cases[n][0]};
+    fg__caption_write(title, subtitle, &field, NULL, (const char *[2]){NULL, NULL}, 0.0);
+    assert_string_equal(subtitle, cases[n][1]);
+  }
+}
+
 static void letters_go_on_after_z(void **state)
 {
   (void)state;
@@ -304,6 +323,7 @@ int main(void)
       cmocka_unit_test(times_of_panels_are_told_in_one_way),
       cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
                                       context_tear_down),
+      cmocka_unit_test(a_level_below_zero_has_a_minus_sign),
       cmocka_unit_test(letters_go_on_after_z),
   };
   return cmocka_run_group_tests_name("picture/caption", tests, NULL, NULL);
