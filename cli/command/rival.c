@@ -117,11 +117,14 @@ static int write_flat(const rival_files *files, const char *end)
   fg_picture_options options = settings_picture(&work->settings->picture);
   options.speed_min = work->speeds[0];
   options.speed_max = work->speeds[1];
+  double key_width = 0.0;
+  options.key_width = &key_width;
   const result_file *file = new_file(work, files->count, end);
   if (!file)
     return EXIT_FAILED;
   fg_status status = fg_picture_write(work->context, file->partial, work->field,
                                       files->clusters, files->icons, &options);
+  tell_key_width(file->path, key_width);
   return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 

@@ -5,6 +5,7 @@
 #include "map/project.h"
 #include "read/format.h"
 #include "read/mapped.h"
+#include "read/title.h"
 
 #include <ctype.h>
 #include <stdint.h>
@@ -194,6 +195,12 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
     status = name_the_file(
         context, fg__field_read_known(out, context, format, &source, options, slab),
         input);
+  if (status == FG_STATUS_OK)
+    status = fg__title_from_file(*out, context, &source, options);
+  if (status != FG_STATUS_OK) {
+    fg_field_destroy(*out);
+    *out = NULL;
+  }
   fg__source_close(&source);
   return status;
 }

@@ -63,6 +63,9 @@ static fg_status select_sample(size_t *out, const fg__nc_file *file,
     status = fg__fail(file->context, FG_STATUS_ARGUMENT,
                       "%s: '%.100s=%.100s' are %d samples, and one is read at a time",
                       path_of(file, d), d->name, which, found.count);
+    fg__hint(file->context,
+             "read each by itself; flowgrain draw shows the folders of several runs as "
+             "panels of one figure");
   } else if (found.nearest) {
     status = fg__fail(file->context, FG_STATUS_ARGUMENT,
                       "%s: '%.100s=%.100s' is not there; the nearest is %s",

@@ -96,6 +96,12 @@ static void values_go_before_indices(void **state)
   }
   refuse_with(f, &(fg_read_options){.at = "expver=1.2"}, FG_STATUS_ARGUMENT,
               "'expver=1.2' is not there; the nearest is expver 1");
+  fg_field *field = NULL;
+  const fg_read_options both = {.at = "expver=0:1"};
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_read(&field, f->context, f->path, &both), FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(f->context), "are 2 samples"));
+  assert_non_null(strstr(fg_context_hint(f->context), "flowgrain draw"));
 }
 
 /* What is chosen leaves its part, as that of time, to another dimension: a record
