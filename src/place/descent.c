@@ -37,6 +37,10 @@ static const double CHAIN_STEP = 0.1; /* in lambda */
 
 const fg__place_schedule fg__place_first_schedule = {0.8, 1.25};
 
+/* Gaps are filled evenly up to this share of the icons that a first scale begins with;
+ * the others come where readers err most. */
+static const double EVEN_SHARE = 0.84;
+
 /* The most ink of a free placement (fg__place_ink). Where it would be more its penalty
  * comes to what leaves so much, as ink that is left unused is error. */
 static const double MOST_INK = 1.495, WANTED_INK = 1.488, LEAST_INK = 1.475;
@@ -115,7 +119,7 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count)
   return status;
 }
 
-/* Starts from icons, and from even points as far as these are fewer than `even`. */
+/* Starts from icons, and from even points where these are fewer than `even`. */
 static fg_status start(fg__place_descent *descent, int count, int even,
                        const fg_icons *clusters)
 {
@@ -256,7 +260,8 @@ fg_status fg__descent_first(fg__place_descent *descent, int count,
                             const fg_icons *clusters, const fg__place_schedule *by)
 {
   const int more = (int)fmin(by->start * count, fg__descent_most(descent->domain));
-  fg_status status = start(descent, more > count ? more : count, count, clusters);
+  const int first = more > count ? more : count;
+  fg_status status = start(descent, first, (int)(EVEN_SHARE * first), clusters);
   if (status == FG_STATUS_OK)
     status = relax_to_count(descent->search);
   return status == FG_STATUS_OK ? fg__descent_go_down(descent, count, by->ratio) : status;
