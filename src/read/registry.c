@@ -3,6 +3,7 @@
 #include "base/mix.h"
 #include "field/slab.h"
 #include "map/project.h"
+#include "read/foreign.h"
 #include "read/format.h"
 #include "read/mapped.h"
 
@@ -81,6 +82,15 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   if (wanted)
     return find_named(out, context, wanted, source);
   *out = fg__format_find(source->bytes, source->size);
+  const fg__foreign *foreign = !*out || *out == &fg__format_table
+                                   ? fg__foreign_find(source->bytes, source->size)
+                                   : NULL;
+  if (foreign) {
+    fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is %s, which cannot be read",
+             source->path, foreign->name);
+    fg__hint(context, "%s", foreign->advice);
+    return FG_STATUS_FILE_FORMAT;
+  }
   if (*out)
     return FG_STATUS_OK;
   char start[3 * 4 + 1] = "";
