@@ -26,16 +26,28 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
   return NULL;
 }
 
-/* A format's name in small letters, with dashes; whether it is `word`, or begins so. */
+static int plain_letter(char letter)
+{
+  return letter == ' ' ? '-' : tolower((unsigned char)letter);
+}
+
+/* Whether a format's name is `word`, or begins so, whichever the size of letters and with
+ * dashes or blanks; or whether its files' names end so, as csv. */
 static bool is_called(const fg__format *format, const char *word)
 {
   const char *name = format->name;
-  for (; *word; ++word, ++name) {
-    const int letter = *name == ' ' ? '-' : tolower((unsigned char)*name);
-    if (letter != *word)
-      return false;
-  }
-  return *name == '\0' || *name == ' ';
+  const size_t length = strlen(word);
+  size_t same = 0;
+  while (same < length && name[same] &&
+         plain_letter(name[same]) == plain_letter(word[same]))
+    ++same;
+  if (same == length && (name[same] == '\0' || name[same] == ' '))
+    return true;
+  for (const char *at = length ? format->files : NULL;
+       at && (at = strchr(at, '.')) != NULL; ++at)
+    if (strncmp(at + 1, word, length) == 0 && strchr(",)", at[1 + length]))
+      return true;
+  return false;
 }
 
 /* The format of a name; of two of that name the one that knows the bytes. */
