@@ -213,7 +213,7 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
   domain->root_mean_square = sqrt(squares / (double)count);
   domain->dead =
       domain->dimension == 3 && domain->median < DEAD_SHARE * domain->root_mean_square;
-  const bool all = fg__place_moves(domain, domain->median);
+  const bool all = domain->dead || fg__place_moves(domain, domain->median);
   for (size_t n = 0; n < count; ++n)
     if (all || fg__place_moves(domain, (double)speed[n]))
       weights += fg__place_weight(domain, (double)speed[n]);
