@@ -7,12 +7,26 @@
 #include "read/npy/npy.h"
 #include "read/table/table.h"
 
-/* Names of arrays are chosen from as those of a table's columns are. */
+/* Whether the arrays have the names that numpy.savez gives those without: arr_0, arr_1.
+ */
+static bool is_nameless(const fg__npy_file *file)
+{
+  bool nameless = true;
+  for (size_t i = 0; i < file->count && nameless; ++i) {
+    char name[FG__NPY_NAME];
+    snprintf(name, sizeof name, "arr_%zu", i);
+    nameless = strcmp(file->array[i].name, name) == 0;
+  }
+  return nameless;
+}
+
+/* Names of arrays are chosen from as those of a table's columns are: four or six without
+ * names are places and velocity. */
 static fg_status make_table(fg__table *out, fg__npy_file *file)
 {
   *out = (fg__table){.context = file->context,
                      .path = file->path,
-                     .named = true,
+                     .named = !is_nameless(file) || file->count < 4,
                      .placeless = true,
                      .columns = (int)file->count};
   out->column = fg__allocate(file->count, sizeof *out->column);
@@ -152,6 +166,8 @@ static fg_status choose(fg__npy_choice *out, fg__npy_file *file, const fg__table
 {
   fg__table_vector named[FG__TABLE_VECTORS];
   const bool one = options->vars && !strchr(options->vars, ',');
+  if (!options->vars && !table->named && file->count != 4 && file->count != 6)
+    return fail_none(file);
   if (!one && (options->vars || fg__table_vectors(named, table) > 0)) {
     fg_status status = fg__table_choose(named, table, options);
     return status == FG_STATUS_OK ? choose_pair(out, file, named) : status;

@@ -1,4 +1,5 @@
 /* The rows of a table as points. */
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -72,6 +73,14 @@ static fg_status fail_columns(const row_reader *r, const fg__table_line *line, i
                   "%s: line %d has %s%d columns, not %d as others", r->table->path,
                   line->number, count > columns ? "more than " : "",
                   count > columns ? columns : count, columns);
+}
+
+/* A heading in brackets: after it come other things than points, as CFD-Post's faces. */
+static bool is_heading(const fg__table_line *line)
+{
+  return line->size > 2 && line->text[0] == '[' &&
+         isalpha((unsigned char)line->text[1]) &&
+         memchr(line->text, ']', line->size) != NULL;
 }
 
 /* What could be no row whatever it holds. */
@@ -233,6 +242,8 @@ fg_status fg__table_rows(fg__scatter *out, const fg__table *table,
   while (status == FG_STATUS_OK && fg__table_next(&line, &cursor)) {
     if (fg__table_is_blank(&line) || fg__table_is_comment(&line))
       continue;
+    if (is_heading(&line))
+      break;
     if (line.number % STOP_EVERY == 0)
       status = fg__check_stop(table->context);
     if (status == FG_STATUS_OK)

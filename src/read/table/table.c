@@ -1,6 +1,7 @@
 /* Tables as a format. */
 #include "read/table/table.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 
 enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 
-/* Text, but no markup: the last format that is tried. */
+/* Text, but no markup: the last format that is tried. A word in brackets is a heading, as
+ * CFD-Post's [Name]; an array of JSON has none behind its bracket. */
 static bool is_text(const unsigned char *bytes, size_t size)
 {
   size_t first = 0, shown = 0;
@@ -22,7 +24,8 @@ static bool is_text(const unsigned char *bytes, size_t size)
     if ((bytes[i] < ' ' && !strchr("\t\n\r\f", bytes[i])) || bytes[i] == 0 ||
         bytes[i] == 0x7f)
       return false;
-    if (shown == 0 && strchr("<{[", bytes[i]))
+    if (shown == 0 && (bytes[i] == '[' ? i + 1 == size || !isalpha(bytes[i + 1])
+                                       : strchr("<{", bytes[i]) != NULL))
       return false;
     shown += bytes[i] > ' ';
   }

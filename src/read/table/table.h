@@ -96,8 +96,11 @@ fg_status fg__table_find_layout(fg__table *table, const fg__source *source);
 /* header.c. Names and units of the columns, from what stands before the data. */
 fg_status fg__table_find_names(fg__table *table, const fg__source *source);
 
-/* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm". */
+/* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm", "U[i] (m/s)". */
 void fg__table_name(fg__table_column *column, const char *text, size_t size);
+
+/* Whether a word is a unit that Insight and others write without brackets: "X mm". */
+bool fg__table_is_unit(const char *text);
 
 /* Columns of a vector and what else a row has; -1: none. */
 typedef struct fg__table_vector {
