@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "place/distance.h"
+#include "place/gaps.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -279,11 +280,22 @@ static fg_status number_subdomains(fg__place_domain *domain, fg_context *context
   return status;
 }
 
+/* Maps the domain of its field. */
+static fg_status make_map(fg__place_domain *domain, fg_context *context)
+{
+  fg_status status = measure_speeds(domain, context, domain->clearance);
+  /* the clearance's place held speeds for a while */
+  if (status == FG_STATUS_OK)
+    status = fg__place_distance(domain->clearance, context, domain->subdomain,
+                                domain->cells, domain->dimension, domain->spacing);
+  return status;
+}
+
 fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
                                   const fg_field *field)
 {
-  *out = (fg__place_domain){.field = field,
-                            .dimension = fg_field_contents(field)->dimension};
+  *out = (fg__place_domain){
+      .field = field, .given = field, .dimension = fg_field_contents(field)->dimension};
   choose_map(out);
   size_t count = map_count(out);
   out->subdomain = fg__allocate(count, sizeof *out->subdomain);
@@ -292,11 +304,15 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
   if (!out->subdomain || !out->clearance)
     status = fg__fail_memory(context, "the map of a domain",
                              count * (sizeof *out->subdomain + sizeof *out->clearance));
-  if (status == FG_STATUS_OK) /* the clearance's place holds speeds for a while */
-    status = measure_speeds(out, context, out->clearance);
   if (status == FG_STATUS_OK)
-    status = fg__place_distance(out->clearance, context, out->subdomain, out->cells,
-                                out->dimension, out->spacing);
+    status = make_map(out, context);
+  if (status == FG_STATUS_OK)
+    status = fg__place_fill_gaps(&out->filled, context, out);
+  if (status == FG_STATUS_OK && out->filled) {
+    out->field = out->filled;
+    memset(out->subdomain, 0, count * sizeof *out->subdomain);
+    status = make_map(out, context);
+  }
   if (status == FG_STATUS_OK)
     status = number_subdomains(out, context);
   if (status == FG_STATUS_OK)
@@ -308,6 +324,7 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
 
 void fg__place_domain_clear(fg__place_domain *domain)
 {
+  fg_field_destroy(domain->filled);
   free(domain->clearance);
   free(domain->subdomain);
   free(domain->subdomains);

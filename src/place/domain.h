@@ -12,7 +12,9 @@ typedef struct fg__place_subdomain {
 } fg__place_subdomain;
 
 typedef struct fg__place_domain {
-  const fg_field *field;
+  const fg_field *field; /* without gaps */
+  const fg_field *given;
+  fg_field *filled; /* NULL: the given one has no gaps */
   int dimension;
   double low[3], high[3]; /* the field's box, input coordinates as all that follows */
   double data_step;       /* the smallest of the mean distances between samples */
@@ -32,7 +34,8 @@ typedef struct fg__place_domain {
   bool dead; /* most of the domain hardly moves: speed weighs */
 } fg__place_domain;
 
-/* Maps the domain of a field. The field must outlive it. MEMORY, STOPPED. */
+/* Maps the domain of a field; gaps (gaps.h) are no walls. The field must outlive it.
+ * MEMORY, STOPPED. */
 fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
                                   const fg_field *field);
 void fg__place_domain_clear(fg__place_domain *domain);

@@ -26,7 +26,7 @@ fg_context *fg__placement_context(const fg_placement *placement)
 
 const fg_field *fg__placement_field(const fg_placement *placement)
 {
-  return placement->domain.field;
+  return placement->domain.given;
 }
 
 fg_status fg_placement_create(fg_placement **out, fg_context *context,

@@ -130,7 +130,7 @@ fg_status fg__place_measure_regions(fg__place_region *out, fg_context *context,
         double v[3] = {0};
         /* the map's cells at the domain's boundary reach beyond it */
         if (all.owner[at] < 0 || !fg__place_subdomain_at(search->domain, point) ||
-            !fg_field_velocity(search->domain->field, point, v))
+            !fg_field_velocity(search->domain->given, point, v))
           continue;
         out[all.owner[at]].measure += cell;
         out[all.owner[at]].speed += cell * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
