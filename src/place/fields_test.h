@@ -2,7 +2,7 @@
 #ifndef FG__PLACE_FIELDS_TEST_H
 #define FG__PLACE_FIELDS_TEST_H
 
-#include "place/domain.h"
+#include "place/domain/domain.h"
 #include "score/picture_test.h"
 
 static const double DEGREE = 3.14159265358979324 / 180.0;

@@ -3,7 +3,7 @@
 #ifndef FG__PLACE_SCALE_H
 #define FG__PLACE_SCALE_H
 
-#include "place/domain.h"
+#include "place/domain/domain.h"
 
 typedef struct fg__place_scale {
   int dimension, count;

@@ -2,7 +2,7 @@
 #ifndef FG__PLACE_STREAMLINE_H
 #define FG__PLACE_STREAMLINE_H
 
-#include "place/domain.h"
+#include "place/domain/domain.h"
 
 typedef struct fg__place_tip {
   double position[3];

@@ -1,4 +1,4 @@
-#include "place/distance.h"
+#include "place/domain/distance.h"
 
 #include "score/picture_test.h"
 
@@ -62,5 +62,5 @@ int main(void)
       CASE(distances_are_those_to_the_nearest_outer_cell),
       CASE(a_single_cell_is_half_a_cell_from_the_frame),
   };
-  return cmocka_run_group_tests_name("place/distance", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/domain/distance", tests, NULL, NULL);
 }

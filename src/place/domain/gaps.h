@@ -3,7 +3,7 @@
 #ifndef FG__PLACE_GAPS_H
 #define FG__PLACE_GAPS_H
 
-#include "place/domain.h"
+#include "place/domain/domain.h"
 
 /* Makes a field without the gaps of a domain's, in which their samples are means of those
  * around. *out is NULL where small holes are few, as islands are, and in 3D. MEMORY. */

@@ -1,7 +1,7 @@
-#include "place/gaps.h"
+#include "place/domain/gaps.h"
 
 #include "base/memory.h"
-#include "place/distance.h"
+#include "place/domain/distance.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "place/gaps.h"
+#include "place/domain/gaps.h"
 
 #include "place/fields_test.h"
 #include "place/placement.h"
@@ -124,5 +124,5 @@ int main(void)
       CASE(few_holes_are_walls),
       CASE(gaps_cost_little_error),
   };
-  return cmocka_run_group_tests_name("place/gaps", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/domain/gaps", tests, NULL, NULL);
 }

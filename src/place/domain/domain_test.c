@@ -1,4 +1,4 @@
-#include "place/domain.h"
+#include "place/domain/domain.h"
 
 #include "place/fields_test.h"
 
@@ -172,5 +172,5 @@ int main(void)
       CASE(dead_volume_hardly_counts),
       CASE(what_stands_still_has_no_share),
   };
-  return cmocka_run_group_tests_name("place/domain", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("place/domain/domain", tests, NULL, NULL);
 }

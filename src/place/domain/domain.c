@@ -1,8 +1,8 @@
-#include "place/domain.h"
+#include "place/domain/domain.h"
 
 #include "base/memory.h"
-#include "place/distance.h"
-#include "place/gaps.h"
+#include "place/domain/distance.h"
+#include "place/domain/gaps.h"
 
 #include <math.h>
 #include <stdint.h>

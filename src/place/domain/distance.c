@@ -1,4 +1,4 @@
-#include "place/distance.h"
+#include "place/domain/distance.h"
 
 #include "base/memory.h"
 
