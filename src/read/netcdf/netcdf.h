@@ -394,7 +394,7 @@ fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
                          const fg__nc_variable *variable, const fg__nc_grid *grid,
                          const fg__nc_variable *component, size_t time, size_t level);
 
-/* The same of a variable with one dimension. */
+/* The same of all numbers of a variable with one dimension or more. */
 fg_status fg__nc_line(double *out, const fg__nc_file *file,
                       const fg__nc_variable *variable);
 
