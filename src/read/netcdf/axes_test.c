@@ -320,6 +320,15 @@ static void dimensions_that_fit_nothing_are_refused(void **state)
   sample_variable(f, "v", NC_FLOAT, 2, all);
   sample_end(f);
   refuse(f, "only one dimension in space");
+  sample_begin(f, 0);
+  all[0] = sample_dimension(f, "time", 2);
+  all[1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
+  all[2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
+  sample_variable(f, "u", NC_FLOAT, 3, all);
+  sample_variable(f, "v", NC_FLOAT, 2, all + 1);
+  sample_end(f);
+  refuse(f, "'u' is 2 x 3 x 3, 'v' is 3 x 3 samples");
+  assert_null(strstr(fg_context_message(f->context), "staggered"));
 }
 
 /* A file of a few kilobytes that declares gigabytes must cost neither time nor memory. */

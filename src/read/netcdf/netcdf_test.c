@@ -386,6 +386,8 @@ static void the_usual_level_is_the_seas_surface(void **state)
                {"ocean_sigma_coordinate", "", "", rising, 1},
                {"depth", "", "m", depths, 1},
                {"", "down", "m", depths, 1},
+               {"depth", "down", "m", rising, 1},
+               {"", "down", "m", rising, 1},
                {"", "up", "m", rising, 1},
                {"", "up", "m", depths, 0},
                {"height", "up", "m", rising, 0},

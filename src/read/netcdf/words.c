@@ -79,11 +79,13 @@ static bool is_empty(const char *word)
          strcasecmp(word, "momentum") == 0;
 }
 
-/* "Ocean current along" is "Ocean current". */
+/* "Ocean current along" is "Ocean current", as is "Ocean current:". */
 static void cut_fillers_at_end(char *text)
 {
   for (char *last; (last = strrchr(text, ' ')) && is_filler(last + 1);)
     *last = '\0';
+  for (size_t n = strlen(text); n > 0 && strchr(":,;-", text[n - 1]); --n)
+    text[n - 1] = '\0';
 }
 
 static bool is_shouted(const char *word)

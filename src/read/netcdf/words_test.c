@@ -26,7 +26,7 @@ static void assert_title(sample_file *f, const naming *n)
   fg_field_destroy(field);
 }
 
-/* As NEMO, MPAS-Ocean, FVCOM, WRF, POP and ROMS write them. */
+/* As NEMO, MPAS-Ocean, FVCOM, WRF, POP, ROMS and altimetry's products write them. */
 static void titles_are_without_directions(void **state)
 {
   static const naming cases[] = {
@@ -44,6 +44,9 @@ static void titles_are_without_directions(void **state)
       {"long_name", "u-momentum component", "v-momentum component", "the file"},
       {"long_name", "vertically integrated u-momentum component",
        "vertically integrated v-momentum component", "vertically integrated momentum"},
+      {"long_name", "Absolute geostrophic velocity: zonal component",
+       "Absolute geostrophic velocity: meridian component",
+       "Absolute geostrophic velocity"},
       {"long_name", "Wind speed to the east", "Wind speed to the north", "Wind speed"}};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
     assert_title(*state, &cases[n]);
