@@ -234,11 +234,8 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
 {
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
-  char text[FG__NC_TEXT];
   char mapping[FG__NC_TEXT];
-  fg__nc_text(u, "standard_name", text, sizeof text);
-  const bool east = strstr(text, "eastward") && strncmp(text, "grid_", 5) != 0;
-  if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
+  if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !fg__nc_says_east(u)))
     return;
   if (grid->projection[0]) {
     grid->points_east = true;
@@ -264,6 +261,20 @@ static bool is_rotated(const fg__nc_grid *grid)
          strcmp(grid->axis[1].name, "grid latitude") == 0;
 }
 
+/* In a plane of unknown projection points are placed by longitude and latitude, where the
+ * file has them. */
+static fg_status prefer_positions(fg__nc_grid *grid, const fg__nc_file *file,
+                                  const fg__nc_pair *pair)
+{
+  const fg_scale of_plane = grid->scale;
+  bool found = false;
+  grid->scale = FG_SCALE_AUTO;
+  const fg_status status = read_plane(grid, file, pair, &found);
+  grid->scale = found ? FG_SCALE_GEO : of_plane;
+  set_positions(grid, pair->component[0]);
+  return status;
+}
+
 static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
                               const fg__nc_pair *pair, fg__nc_quantity velocity,
                               const fg_read_options *options)
@@ -277,6 +288,9 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
     status = fg__nc_projection_find(grid, file, pair->component[0]);
   if (grid->projection[0])
     grid->scale = FG_SCALE_MAP;
+  else if (wanted == FG_SCALE_AUTO && grid->scale != FG_SCALE_GEO && is_usable(grid) &&
+           !grid->faces.used)
+    status = prefer_positions(grid, file, pair);
   if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO) && is_usable(grid))
     check_directions(grid, file, pair->component[0], options->frame);
   if (grid->scale == FG_SCALE_GEO &&

@@ -172,6 +172,15 @@ static bool most_differ(const plane of[2], size_t n0, size_t n1, bool turned,
   return differ > equal;
 }
 
+/* Whether longitudes or latitudes are all alike, as idealised runs have them. */
+static bool are_alike(const plane *p, size_t count)
+{
+  size_t n = 1;
+  while (n < count && p->value[n] == p->value[0])
+    ++n;
+  return n == count;
+}
+
 static fg_status compare_planes(bool *apart, const fg__nc_file *file, plane of[2],
                                 bool turned, bool longitude)
 {
@@ -229,6 +238,8 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
   if (status == FG_STATUS_OK)
     status = read_plane(&latitude, file);
   if (status != FG_STATUS_OK)
+    goto cleanup;
+  if (are_alike(&longitude, n0 * n1) || are_alike(&latitude, n0 * n1))
     goto cleanup;
   const bool same_order = other[0] == dimension[0];
   const int x = direction_of(&longitude, n0, n1, true);
