@@ -130,7 +130,8 @@ static bool is_on_indices(const fg__nc_mesh *mesh, const fg__nc_file *file)
   return true;
 }
 
-/* Whether u and v are along coordinates of a plane, as of a projection. */
+/* Whether u and v are along coordinates of a plane, as of a projection, or of a rotated
+ * pole. */
 static bool is_on_a_plane(const fg__nc_mesh *mesh, const fg__nc_file *file)
 {
   for (int k = 0; k < 2; ++k) {
@@ -141,9 +142,11 @@ static bool is_on_a_plane(const fg__nc_mesh *mesh, const fg__nc_file *file)
     if (!along)
       return false;
     fg__nc_text(along, "units", text, sizeof text);
-    const bool length = fg__nc_units(text, label, sizeof label) == FG__NC_LENGTH;
-    if (!length && !(fg__nc_text(along, "standard_name", text, sizeof text) &&
-                     starts_with(text, "projection_")))
+    if (fg__nc_units(text, label, sizeof label) == FG__NC_LENGTH)
+      continue;
+    fg__nc_text(along, "standard_name", text, sizeof text);
+    if (!starts_with(text, "projection_") && !starts_with(text, "grid_l") &&
+        !starts_with(along->plain_name, k == 0 ? "rlon" : "rlat"))
       return false;
   }
   return true;

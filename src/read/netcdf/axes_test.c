@@ -246,7 +246,8 @@ static void components_must_run_along_the_axes(void **state)
   }
 }
 
-static void a_rotated_pole_has_a_sphere_of_its_own(void **state)
+/* Nothing says where on the Earth it is. */
+static void a_rotated_pole_alone_is_a_plane(void **state)
 {
   sample_file *f = *state;
   static const double degrees[4] = {-3.0, -2.0, -1.0, 0.5};
@@ -263,10 +264,15 @@ static void a_rotated_pole_has_a_sphere_of_its_own(void **state)
   put_columns(f, u, v, 4);
   sample_end(f);
   fg_field *field = read_field(f);
-  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
+  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_PLAIN);
   assert_string_equal(fg_field_contents(field)->axis_name[0], "grid longitude");
   assert_string_equal(fg_field_contents(field)->axis_units[0], "°");
   fg_field_destroy(field);
+  nc_must(nc_open(f->path, NC_WRITE, &f->id));
+  sample_text(f, u, "standard_name", "eastward_wind");
+  sample_text(f, v, "standard_name", "northward_wind");
+  sample_end(f);
+  refuse(f, "'u' points east, but the axes of its rotated grid do not");
 }
 
 /* Without coordinates or known names the last dimension is x. */
@@ -385,7 +391,7 @@ int main(void)
       CASE(grids_in_disguise_are_recognised),
       CASE(curvilinear_grids_need_a_frame),
       CASE(components_must_run_along_the_axes),
-      CASE(a_rotated_pole_has_a_sphere_of_its_own),
+      CASE(a_rotated_pole_alone_is_a_plane),
       CASE(bare_arrays_are_read_on_their_indices),
       CASE(dimensions_that_fit_nothing_are_refused),
       CASE(grids_that_no_file_can_hold_are_refused),

@@ -214,16 +214,20 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
 {
   const fg__nc_quantity x = grid->axis[0].quantity;
   const fg__nc_quantity y = grid->axis[1].quantity;
-  const bool rotated = strcmp(grid->axis[0].name, "grid longitude") == 0 &&
-                       strcmp(grid->axis[1].name, "grid latitude") == 0;
   /* any vector along east and north lies on the sphere; an angular speed counts
    * degrees */
-  if (((x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH) || rotated) &&
+  if (x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH &&
       velocity != FG__NC_ANGULAR_SPEED)
     return FG_SCALE_GEO;
   if (x == FG__NC_LENGTH && y == FG__NC_LENGTH)
     return FG_SCALE_MAP;
   return FG_SCALE_PLAIN;
+}
+
+static bool is_rotated(const fg__nc_grid *grid)
+{
+  return strcmp(grid->axis[0].name, "grid longitude") == 0 &&
+         strcmp(grid->axis[1].name, "grid latitude") == 0;
 }
 
 /* Components along east and north are not components along the axes of a projection or of
@@ -244,7 +248,7 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_text(u, "grid_mapping", mapping, sizeof mapping);
   const fg__nc_variable *described = mapping[0] ? fg__nc_find(file, mapping) : NULL;
   if (!described || !fg__nc_text(described, "grid_mapping_name", mapping, sizeof mapping))
-    return;
+    snprintf(mapping, sizeof mapping, "%s", is_rotated(grid) ? "rotated" : upright[0]);
   for (size_t i = 0; i < sizeof upright / sizeof *upright; ++i)
     if (strcmp(mapping, upright[i]) == 0)
       return;
@@ -253,12 +257,6 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
                    u->plain_name, mapping);
   snprintf(grid->hint, sizeof grid->hint,
            "--scale map or plain takes the components as if they were along the axes");
-}
-
-static bool is_rotated(const fg__nc_grid *grid)
-{
-  return strcmp(grid->axis[0].name, "grid longitude") == 0 &&
-         strcmp(grid->axis[1].name, "grid latitude") == 0;
 }
 
 /* In a plane of unknown projection points are placed by longitude and latitude, where the
