@@ -30,12 +30,14 @@ static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
 }
 
 static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
-                           int position, size_t *count,
+                           fg__nc_role role, int position, size_t *count,
                            const fg__nc_variable **coordinate, char *name)
 {
   *count = 1;
-  if (position < 0)
+  if (position < 0) {
+    *coordinate = fg__nc_single_coordinate(file, v, role);
     return;
+  }
   const fg__nc_dimension *d = &file->dimensions[v->dimension[position]];
   *count = d->length;
   *coordinate = fg__nc_coordinate(file, v, position);
@@ -68,9 +70,9 @@ static const fg__nc_variable *dates_beside(const fg__nc_file *file,
 void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_variable *v)
 {
-  set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
+  set_index_axis(file, v, FG__NC_TIME, grid->time, &grid->times, &grid->time_variable,
                  grid->time_name);
-  set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
+  set_index_axis(file, v, FG__NC_LEVEL, grid->level, &grid->levels, &grid->level_variable,
                  grid->level_name);
   if (grid->time >= 0 && grid->time_variable)
     grid->time_variable = dates_beside(file, grid->time_variable);

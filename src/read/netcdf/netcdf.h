@@ -219,6 +219,13 @@ void fg__nc_classify(fg__nc_variable *variable);
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
                                          const fg__nc_variable *variable, int k);
 
+/* A coordinate of one value of that role which is along none of the variable's
+ * dimensions (CF conventions, section 5.7): the variable names it, or the file does. Of
+ * time it has dates. NULL: none. */
+const fg__nc_variable *fg__nc_single_coordinate(const fg__nc_file *file,
+                                                const fg__nc_variable *variable,
+                                                fg__nc_role role);
+
 /* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
 bool fg__nc_is_time(const fg__nc_file *file, const fg__nc_variable *variable, int k);
 
@@ -318,6 +325,9 @@ fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
 
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
+
+/* Whether a name is one of those in a text with blanks between. */
+bool fg__nc_is_listed(const char *names, const char *name);
 
 /* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
  * dimensions and perhaps one for each time. One of the same file is preferred, then one

@@ -20,7 +20,7 @@ typedef struct plane {
   double *value; /* the file's order: [first dimension][second dimension] */
 } plane;
 
-static bool is_listed(const char *names, const char *name)
+bool fg__nc_is_listed(const char *names, const char *name)
 {
   const size_t length = strlen(name);
   for (const char *c = names; length > 0 && (c = strstr(c, name)); c += length)
@@ -68,7 +68,8 @@ const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
     const fg__nc_variable *v = &file->variables[i];
     if (!lies_in_plane(file, v, x, y) || v->geographic != role)
       continue;
-    const int rank = 2 * (v->file == variable->file) + is_listed(listed, v->plain_name);
+    const int rank =
+        2 * (v->file == variable->file) + fg__nc_is_listed(listed, v->plain_name);
     if (rank > best) {
       best = rank;
       found = v;
@@ -85,7 +86,7 @@ bool fg__nc_names_plane(const fg__nc_grid *grid, const fg__nc_file *file,
   for (int role = FG__NC_X; role <= FG__NC_Y; ++role) {
     const fg__nc_variable *v =
         fg__nc_plane_coordinate(grid, file, variable, (fg__nc_role)role);
-    if (!v || !is_listed(listed, v->plain_name))
+    if (!v || !fg__nc_is_listed(listed, v->plain_name))
       return false;
   }
   return true;

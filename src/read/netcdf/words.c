@@ -294,10 +294,11 @@ fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
   char text[FG__NC_TEXT];
   fg_status status = FG_STATUS_OK;
   *out = (fg__nc_words){{0}, {0}, {0}, {0}};
-  if (grid->time >= 0)
+  if (grid->time >= 0 || grid->time_variable)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, out->time, sizeof out->time);
-  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
+  if ((grid->level >= 0 || grid->level_variable) && grid->dimension == 2 &&
+      status == FG_STATUS_OK)
     status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
                                 (size_t)options->level, out->level, sizeof out->level);
   if (status == FG_STATUS_OK)
