@@ -214,6 +214,24 @@ static void curvilinear_grids_need_a_frame(void **state)
   fg_field_destroy(field);
 }
 
+/* Lines of a swath at times of their own are no times of the field (SWOT). */
+static void swaths_run_along_time(void **state)
+{
+  sample_file *f = *state;
+  static const double seconds[ROWS] = {0.0, 3.0, 6.0};
+  int lines;
+  make_plane(f, 2.0, false, false);
+  nc_must(nc_open(f->path, NC_WRITE, &f->id));
+  nc_must(nc_inq_dimid(f->id, "cross", &lines));
+  const int time = sample_variable(f, "time", NC_DOUBLE, 1, &lines);
+  sample_text(f, time, "units", "seconds since 2000-01-01");
+  sample_put(f, time, seconds);
+  sample_end(f);
+  fg_field *field = read_with(f, &(fg_read_options){.frame = FG_FRAME_EAST});
+  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
+  fg_field_destroy(field);
+}
+
 /* Components along east on axes that do not run east. */
 static void components_must_run_along_the_axes(void **state)
 {
@@ -390,6 +408,7 @@ int main(void)
       CASE(axes_out_of_order_are_refused),
       CASE(grids_in_disguise_are_recognised),
       CASE(curvilinear_grids_need_a_frame),
+      CASE(swaths_run_along_time),
       CASE(components_must_run_along_the_axes),
       CASE(a_rotated_pole_alone_is_a_plane),
       CASE(bare_arrays_are_read_on_their_indices),

@@ -257,12 +257,42 @@ typedef struct claim {
   int strength; /* 2: by attributes; 1: by name */
 } claim;
 
+static bool has_dimension(const fg__nc_variable *v, int dimension)
+{
+  int k = 0;
+  while (k < v->rank && v->dimension[k] != dimension)
+    ++k;
+  return k < v->rank;
+}
+
+/* Whether a dimension is one of a swath: longitudes lie along it and another of the
+ * variable's, and times only beside them. */
+static bool is_of_swath(const fg__nc_file *file, const fg__nc_variable *variable, int k,
+                        const fg__nc_variable *coordinate)
+{
+  const int dimension = variable->dimension[k];
+  if (strcmp(coordinate->plain_name, file->dimensions[dimension].name) == 0)
+    return false;
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (v->rank == 2 && v->geographic == FG__NC_X && has_dimension(v, dimension) &&
+        has_dimension(variable, v->dimension[0]) &&
+        has_dimension(variable, v->dimension[1]))
+      return true;
+  }
+  return false;
+}
+
 static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, int k)
 {
   const fg__nc_variable *coordinate = fg__nc_coordinate(file, variable, k);
   claim c = {FG__NC_NO_ROLE, 2};
   if (coordinate)
     c.role = role_of_attributes(coordinate);
+  if (c.role == FG__NC_TIME && is_of_swath(file, variable, k, coordinate)) {
+    coordinate = NULL;
+    c.role = FG__NC_NO_ROLE;
+  }
   if (c.role != FG__NC_NO_ROLE)
     return c;
   c.strength = 1;

@@ -128,8 +128,11 @@ static bool join_shared(const char *of_u, const char *of_v, char *out, size_t si
   return telling;
 }
 
-static void cut_location(char *standard_name)
+/* What a standard name tells of the grid. */
+static void cut_grid(char *standard_name)
 {
+  if (strncmp(standard_name, "grid_", 5) == 0)
+    memmove(standard_name, standard_name + 5, strlen(standard_name + 5) + 1);
   char *at = strstr(standard_name, "_at_u_location");
   at = at ? at : strstr(standard_name, "_at_v_location");
   if (at)
@@ -144,8 +147,8 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
     char of_v[FG__NC_TEXT];
     fg__nc_text(pair->component[0], attribute[a], of_u, sizeof of_u);
     fg__nc_text(pair->component[1], attribute[a], of_v, sizeof of_v);
-    cut_location(of_u);
-    cut_location(of_v);
+    cut_grid(of_u);
+    cut_grid(of_v);
     if (join_shared(of_u, of_v, out, size))
       return;
   }
@@ -186,16 +189,19 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
   if ((quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size)) ||
       fg__nc_duration(value, units, out, size))
     return;
+  char number[32]; /* all digits of a whole one, as of 19820716 */
+  snprintf(number, sizeof number,
+           fabs(value) < 1e15 && value == floor(value) ? "%.0f" : "%g", value);
   if (quantity == FG__NC_PRESSURE)
-    snprintf(out, size, "%g %s", value, label);
+    snprintf(out, size, "%s %s", number, label);
   else if (quantity == FG__NC_LENGTH)
-    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
+    snprintf(out, size, "%s %s %s", kind_of_height(coordinate), number, label);
   else if (strncasecmp(units, "month", 5) == 0)
-    snprintf(out, size, "month %g", value);
+    snprintf(out, size, "month %s", number);
   else if (units[0] == '\0' || strcmp(units, "1") == 0)
-    snprintf(out, size, "%s %g", coordinate->plain_name, value);
+    snprintf(out, size, "%s %s", coordinate->plain_name, number);
   else
-    snprintf(out, size, "%s %g %s", coordinate->plain_name, value, units);
+    snprintf(out, size, "%s %s %s", coordinate->plain_name, number, units);
 }
 
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,

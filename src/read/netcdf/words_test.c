@@ -47,14 +47,33 @@ static void titles_are_without_directions(void **state)
       {"long_name", "Absolute geostrophic velocity: zonal component",
        "Absolute geostrophic velocity: meridian component",
        "Absolute geostrophic velocity"},
+      {"standard_name", "grid_eastward_wind", "grid_northward_wind", "wind"},
       {"long_name", "Wind speed to the east", "Wind speed to the north", "Wind speed"}};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
     assert_title(*state, &cases[n]);
 }
 
+/* Numbers that stand for dates differ in their last digits. */
+static void whole_numbers_keep_their_digits(void **state)
+{
+  static const double day[] = {19900101.0};
+  const double values[COUNT] = {1.0, 2.0, 3.0};
+  sample_file *f = *state;
+  sample_begin(f, 0);
+  const int all[3] = {sample_axis(f, "time", 1, day, "yyyymmdd"),
+                      sample_axis(f, "y", NY, Y, "km"), sample_axis(f, "x", NX, X, "km")};
+  for (int k = 0; k < 2; ++k)
+    sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 3, all), values);
+  sample_end(f);
+  fg_field *field = read_with(f, NULL);
+  assert_string_equal(fg_field_contents(field)->time, "time 19900101 yyyymmdd");
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(
-      titles_are_without_directions, sample_set_up, sample_tear_down)};
+#define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
+  const struct CMUnitTest tests[] = {CASE(titles_are_without_directions),
+                                     CASE(whole_numbers_keep_their_digits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
