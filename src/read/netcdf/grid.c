@@ -74,10 +74,14 @@ void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                  grid->time_name);
   set_index_axis(file, v, FG__NC_LEVEL, grid->level, &grid->levels, &grid->level_variable,
                  grid->level_name);
-  if (grid->time >= 0 && grid->time_variable)
+  if (grid->time < 0)
+    return;
+  if (grid->time_variable)
     grid->time_variable = dates_beside(file, grid->time_variable);
-  if (grid->time >= 0 && !grid->time_variable)
-    grid->time_variable = fg__nc_date_texts(file, v->dimension[grid->time]);
+  const fg__nc_variable *texts = fg__nc_date_texts(file, v->dimension[grid->time]);
+  /* FVCOM's days in single precision are minutes off */
+  if (texts && (!grid->time_variable || grid->time_variable->type == NC_FLOAT))
+    grid->time_variable = texts;
 }
 
 static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
