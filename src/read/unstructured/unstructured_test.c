@@ -149,6 +149,22 @@ static void points_of_trajectories(void **state)
   }
 }
 
+/* Without the mesh the points would be joined across its holes. */
+static void wavewatch(void **state)
+{
+  sample_file *f = *state;
+  example_mesh m = mesh_made(1, true);
+  double *const node[2] = {m.node[0], m.node[1]};
+  sample_begin(f, NC_NETCDF4);
+  const int nodes = sample_dimension(f, "node", NODES);
+  put_corners(f, "tri", &m, sample_dimension(f, "element", m.faces),
+              sample_dimension(f, "noel", CORNERS), false);
+  put_places(f, (const char *const[]){"longitude", "latitude"}, nodes, NODES, node, 1.0);
+  put_flow(f, (const char *const[]){"uwnd", "vwnd"}, nodes, NODES, node, NULL, NOTHING);
+  sample_end(f);
+  read_and_compare(f, NULL, 2e-3, "on the nodes of a mesh of triangles ('tri' with 'lon");
+}
+
 /* Radians without a word about it, polygons whose rows are filled with anything; numbers
  * along the axes of space are no map's. */
 static void mpas(void **state)
@@ -436,6 +452,7 @@ int main(void)
       CASE(cells_with_bounds),
       CASE(points_alone),
       CASE(mpas),
+      CASE(wavewatch),
       CASE(fvcom_in_metres),
       CASE(healpix_numbers),
       CASE(healpix_files),
