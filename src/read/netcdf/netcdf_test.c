@@ -326,7 +326,7 @@ static void inventories_tell_times_and_levels(void **state)
   assert_string_equal(v->time_value[1].words, "2001-02-28 18:00");
   assert_string_equal(v->time_value[2].words, "2001-03-01 00:00:30");
   assert_true(v->time_value[1].value == 6.0);
-  assert_string_equal(v->level_value[1].words, "30000 Pa");
+  assert_string_equal(v->level_value[1].words, "300 hPa");
   assert_string_equal(v->level_value[1].units, "Pa");
   fg_selection found;
   assert_int_equal(

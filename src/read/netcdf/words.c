@@ -176,7 +176,17 @@ static const char *kind_of_height(const fg__nc_variable *coordinate)
   return coordinate->plain_name;
 }
 
-/* Writes a coordinate's value as text. */
+/* Whether units say no more than that values are numbers of levels or layers. */
+static bool are_none(const char *units)
+{
+  static const char *const known[] = {"", "1", "level", "levels", "layer", "layers"};
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strcasecmp(units, known[i]) == 0)
+      return true;
+  return false;
+}
+
+/* Writes a coordinate's value as text, pressures of the air in hPa. */
 static void write_words(const fg__nc_variable *coordinate, double value, char *out,
                         size_t size)
 {
@@ -189,6 +199,10 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
   if ((quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size)) ||
       fg__nc_duration(value, units, out, size))
     return;
+  if (quantity == FG__NC_PRESSURE && strcmp(label, "Pa") == 0 && fabs(value) >= 100.0) {
+    value /= 100.0;
+    snprintf(label, sizeof label, "hPa");
+  }
   char number[32]; /* all digits of a whole one, as of 19820716 */
   snprintf(number, sizeof number,
            fabs(value) < 1e15 && value == floor(value) ? "%.0f" : "%g", value);
@@ -198,7 +212,7 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
     snprintf(out, size, "%s %s %s", kind_of_height(coordinate), number, label);
   else if (strncasecmp(units, "month", 5) == 0)
     snprintf(out, size, "month %s", number);
-  else if (units[0] == '\0' || strcmp(units, "1") == 0)
+  else if (are_none(units))
     snprintf(out, size, "%s %s", coordinate->plain_name, number);
   else
     snprintf(out, size, "%s %s %s", coordinate->plain_name, number, units);

@@ -53,20 +53,23 @@ static void titles_are_without_directions(void **state)
     assert_title(*state, &cases[n]);
 }
 
-/* Numbers that stand for dates differ in their last digits. */
-static void whole_numbers_keep_their_digits(void **state)
+/* Numbers that stand for dates differ in their last digits; the unit "level" (CESM) tells
+ * nothing. */
+static void numbers_of_times_and_levels(void **state)
 {
-  static const double day[] = {19900101.0};
+  static const double day[] = {19900101.0}, lev[] = {992.5};
   const double values[COUNT] = {1.0, 2.0, 3.0};
   sample_file *f = *state;
   sample_begin(f, 0);
-  const int all[3] = {sample_axis(f, "time", 1, day, "yyyymmdd"),
+  const int all[4] = {sample_axis(f, "time", 1, day, "yyyymmdd"),
+                      sample_axis(f, "lev", 1, lev, "level"),
                       sample_axis(f, "y", NY, Y, "km"), sample_axis(f, "x", NX, X, "km")};
   for (int k = 0; k < 2; ++k)
-    sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 3, all), values);
+    sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 4, all), values);
   sample_end(f);
   fg_field *field = read_with(f, NULL);
   assert_string_equal(fg_field_contents(field)->time, "time 19900101 yyyymmdd");
+  assert_string_equal(fg_field_contents(field)->level, "lev 992.5");
   fg_field_destroy(field);
 }
 
@@ -74,6 +77,6 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {CASE(titles_are_without_directions),
-                                     CASE(whole_numbers_keep_their_digits)};
+                                     CASE(numbers_of_times_and_levels)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
