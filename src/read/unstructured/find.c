@@ -104,14 +104,19 @@ static void name_absent(fg__nc_search *search)
 
 static bool recognise(fg__nc_unstructured *out, fg__nc_search *search)
 {
-  typedef bool rule(fg__nc_unstructured *, fg__nc_search *);
-  static rule *const rules[] = {fg__nc_find_ugrid, fg__nc_find_healpix, fg__nc_find_model,
-                                fg__nc_find_coordinates, fg__nc_find_trajectories};
+  static const struct {
+    bool (*find)(fg__nc_unstructured *, fg__nc_search *);
+    bool of_times; /* also along times that have places */
+  } rules[] = {{fg__nc_find_ugrid, false},
+               {fg__nc_find_healpix, false},
+               {fg__nc_find_model, false},
+               {fg__nc_find_coordinates, true},
+               {fg__nc_find_trajectories, true}};
   for (size_t n = 0; n < sizeof rules / sizeof *rules && !search->lacks[0]; ++n)
     for (int k = 0; k < search->u->rank; ++k) {
       *out = (fg__nc_unstructured){.dimension = search->u->dimension[k]};
       search->k = k;
-      if (may_be_places(search, n >= 3) && rules[n](out, search))
+      if (may_be_places(search, rules[n].of_times) && rules[n].find(out, search))
         return true;
     }
   if (!search->lacks[0])
