@@ -240,7 +240,8 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
     status = read_plane(&latitude, file);
   if (status != FG_STATUS_OK)
     goto cleanup;
-  if (are_alike(&longitude, n0 * n1) || are_alike(&latitude, n0 * n1))
+  const bool has_axes = grid->axis[0].coordinate != NULL;
+  if (has_axes && (are_alike(&longitude, n0 * n1) || are_alike(&latitude, n0 * n1)))
     goto cleanup;
   const bool same_order = other[0] == dimension[0];
   const int x = direction_of(&longitude, n0, n1, true);

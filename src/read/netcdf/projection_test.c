@@ -26,6 +26,7 @@ typedef struct plane_file {
   bool has_positions;
   double wrong;  /* added to the longitudes, degrees */
   bool unmapped; /* no grid mapping */
+  bool alike;    /* all positions are one, as in idealised runs */
   bool unnamed;  /* no standard names: long names where they are along east and north */
 } plane_file;
 
@@ -46,7 +47,8 @@ static void write_plane(sample_file *f, const plane_file *how)
     const double turn = (longitude[n] - MERIDIAN) * RADIANS; /* angle of east from x */
     u[n] = how->east ? 3.0 * cos(turn) + 4.0 * sin(turn) : 3.0;
     v[n] = how->east ? 4.0 * cos(turn) - 3.0 * sin(turn) : 4.0;
-    longitude[n] += how->wrong;
+    longitude[n] = how->alike ? MERIDIAN : longitude[n] + how->wrong;
+    latitude[n] = how->alike ? 45.0 : latitude[n];
   }
   const char *units = how->unit == 1.0 ? "m" : "km";
   const int rows = sample_axis(f, "y", SIDE, y, units);
@@ -147,6 +149,12 @@ static void positions_are_the_place_without_a_projection(void **state)
     assert_true(found > 50);
     fg_field_destroy(field);
   }
+  write_plane(
+      f,
+      &(plane_file){.unit = 1.0, .has_positions = true, .unmapped = true, .alike = true});
+  fg_field *ideal = read_with(f, NULL);
+  assert_int_equal(fg_field_contents(ideal)->scale, FG_SCALE_MAP);
+  fg_field_destroy(ideal);
   write_plane(f, &(plane_file){.unit = 1.0, .has_positions = true, .unmapped = true});
   fg_field *field = read_with(f, &(fg_read_options){.scale = FG_SCALE_MAP});
   assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_MAP);
