@@ -1,5 +1,6 @@
 #include <ctype.h>
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,6 +51,15 @@ const char *clean_text(char out[CLEAN_BYTES], const char *text)
   snprintf(out, CLEAN_BYTES, "%s", text);
   blank_controls(out);
   return out;
+}
+
+void tell_key_width(const char *picture, double width)
+{
+  if (width > 0.0 && !silent)
+    fprintf(stderr,
+            "flowgrain: %s: no room for the colour key; a picture of this shape has it "
+            "from a width of %.0f points (%.1f cm) on\n",
+            picture, ceil(width), ceil(width / 7.2 * 2.54) / 10.0);
 }
 
 void complain(const char *format, ...)

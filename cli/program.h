@@ -17,6 +17,10 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints the second line, or stores it. */
 void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* Tells that a picture has no colour key, and the width in points from which on it has
+ * one; nothing for a width of 0. */
+void tell_key_width(const char *picture, double width);
+
 /* Copies a text from a file without terminal escapes: control characters become '?'.
  * Returns `out`; longer texts are cut. */
 enum { CLEAN_BYTES = 1024 };

@@ -187,6 +187,9 @@ typedef struct reading {
   int slab, slabs; /* slabs 0: the inventory; -1: the defaults */
 } reading;
 
+/* In place of a number of slabs: only a crash counts as failure. */
+enum { DEFAULTS_ALONE = -1, WITHOUT_COMPLAINT = -2 };
+
 static void read_once(void *data)
 {
   const reading *r = data;
@@ -199,8 +202,12 @@ static void read_once(void *data)
   options.map = NULL; /* a map needs none of the bounded libraries */
   fg_read_defaults defaults;
   fg_status status;
-  if (r->slabs < 0) {
+  if (r->slabs == DEFAULTS_ALONE) {
     fg_read_defaults_find(&defaults, context, r->input, &options);
+    return;
+  }
+  if (r->slabs == WITHOUT_COMPLAINT) {
+    fg_field_read(&field, context, r->input, &options);
     return;
   }
   if (r->options && r->slabs)
@@ -306,7 +313,12 @@ int sandbox_inventory(const char *input, const fg_read_options *options)
 
 int sandbox_defaults(const char *input, const fg_read_options *options)
 {
-  return sandbox_reading_part(input, options, 0, -1);
+  return sandbox_reading_part(input, options, 0, DEFAULTS_ALONE);
+}
+
+int sandbox_trial(const char *input, const fg_read_options *options)
+{
+  return sandbox_reading_part(input, options, 0, options ? WITHOUT_COMPLAINT : 1);
 }
 
 int sandbox_reading_part(const char *input, const fg_read_options *options, int slab,

@@ -29,6 +29,10 @@ void do_in_child(child_outcome *out, void (*work)(void *), void *data,
  * fg_inventory_read. */
 int sandbox_reading(const char *input, const fg_read_options *options);
 
+/* The same where a reading that fails is no failure yet, as another time may be read;
+ * with options only a crash counts as failure. */
+int sandbox_trial(const char *input, const fg_read_options *options);
+
 /* The same for fg_inventory_read_chosen; options must not be NULL. */
 int sandbox_inventory(const char *input, const fg_read_options *options);
 

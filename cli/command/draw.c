@@ -106,6 +106,8 @@ static fg_status write_flat(fg_context *context, const char *path,
   options.speed_min = speeds[0];
   options.speed_max = speeds[1];
   options.scale_time = drawn_scale_time(scale);
+  double key_width = 0.0;
+  options.key_width = &key_width;
   fg_texture *background = NULL;
   fg_status status =
       background_choose(&options, &background, context, &settings->picture, 0,
@@ -114,6 +116,7 @@ static fg_status write_flat(fg_context *context, const char *path,
     status = fg_picture_write(context, path, scale->run->field,
                               report->placed ? scale->regions : scale->density,
                               scale->icons, &options);
+  tell_key_width(settings->output, key_width);
   fg_texture_destroy(background);
   return status;
 }

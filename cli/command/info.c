@@ -154,6 +154,7 @@ typedef struct listing {
   fg_inventory *inventory;
   bool is_chosen;
   fg_inventory_vector chosen;
+  int looks; /* times that were read for one with values */
 } listing;
 
 static int count_of(const listing *list)
@@ -222,8 +223,35 @@ static bool chooses(const reading_settings *reading)
          reading->block || reading->slice || reading->frame || reading->scale;
 }
 
-/* Lists the vector that the options choose with its grid as read at the first time, or at
- * the last where the first has no values (models that start from rest). */
+/* So many times are looked at for one that has values. */
+enum { MOST_LOOKS = 32 };
+
+/* The time of a look, number 1 to looks - 1: the last one first, then evenly. */
+static int time_of_look(int look, int looks, int times)
+{
+  const int even = look == 1 ? looks - 1 : look - 1;
+  return (int)((int64_t)even * (times - 1) / (looks - 1));
+}
+
+/* Reads the chosen vector at the first time that has values; *looks: of so many that are
+ * looked at. */
+static fg_status read_any(fg_field **out, int *looks, fg_context *context,
+                          const listing *list, const fg_read_options *options)
+{
+  const int times = list->chosen.times;
+  fg_status status = fg_field_read(out, context, list->file, options);
+  *looks = status != FG_STATUS_FILE_FORMAT ? 1 : times < MOST_LOOKS ? times : MOST_LOOKS;
+  for (int look = 1; look < *looks && status == FG_STATUS_FILE_FORMAT; ++look) {
+    fg_read_options other = *options;
+    other.time = time_of_look(look, *looks, times);
+    fg_context_clear(context);
+    status = fg_field_read(out, context, list->file, &other);
+  }
+  return status;
+}
+
+/* Lists the vector that the options choose with its grid as read at a time that has
+ * values (models start from rest, observations have gaps). */
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {
@@ -234,13 +262,7 @@ static fg_status list_chosen(listing *list, fg_context *context,
   if (!list->is_chosen)
     return status;
   list->chosen = *fg_inventory_vector_at(list->inventory, 0);
-  status = fg_field_read(&field, context, list->file, options);
-  if (status == FG_STATUS_FILE_FORMAT && list->chosen.times > 1) {
-    fg_read_options last = *options;
-    last.time = list->chosen.times - 1;
-    fg_context_clear(context);
-    status = fg_field_read(&field, context, list->file, &last);
-  }
+  status = read_any(&field, &list->looks, context, list, options);
   if (!status)
     take_grid(&list->chosen, field);
   fg_field_destroy(field);
@@ -261,6 +283,18 @@ static int complain_of_none(fg_context *context, const listing *list,
   return EXIT_FAILED;
 }
 
+/* Says of how many times the error is. */
+static int complain_of_chosen(fg_context *context, fg_status status, const listing *list)
+{
+  const int code = complain_of(context, status, list->file);
+  if (status == FG_STATUS_FILE_FORMAT && list->looks > 1)
+    advise(list->looks < list->chosen.times
+               ? "The same holds for %d of its %d times; the others were not looked at."
+               : "The same holds for all of its %d times.",
+           list->looks, list->chosen.times);
+  return code;
+}
+
 int command_info(const void *given)
 {
   const info_settings *settings = given;
@@ -269,13 +303,13 @@ int command_info(const void *given)
   fg_context *context;
   options.map = NULL;
   const bool chosen = chooses(&settings->reading);
-  if (sandbox_reading(list.file, chosen ? &options : NULL) || create_context(&context))
+  if (sandbox_trial(list.file, chosen ? &options : NULL) || create_context(&context))
     return EXIT_FAILED;
   int code = EXIT_DONE;
   fg_status status = chosen ? list_chosen(&list, context, &options)
                             : fg_inventory_read(&list.inventory, context, list.file);
   if (status)
-    code = complain_of(context, status, list.file);
+    code = complain_of_chosen(context, status, &list);
   else if (settings->json)
     code = print_json(&list);
   else

@@ -117,11 +117,14 @@ static int write_flat(const rival_files *files, const char *end)
   fg_picture_options options = settings_picture(&work->settings->picture);
   options.speed_min = work->speeds[0];
   options.speed_max = work->speeds[1];
+  double key_width = 0.0;
+  options.key_width = &key_width;
   const result_file *file = new_file(work, files->count, end);
   if (!file)
     return EXIT_FAILED;
   fg_status status = fg_picture_write(work->context, file->partial, work->field,
                                       files->clusters, files->icons, &options);
+  tell_key_width(file->path, key_width);
   return status ? complain_of_result(work, file, status) : EXIT_DONE;
 }
 
@@ -177,6 +180,15 @@ static void choose_speeds(rival_work *work, const fg_icons *icons)
   settings_speeds(work->speeds, &work->settings->picture);
 }
 
+/* As the points of a square grid beside a field of a thousand times its width. */
+static int complain_of_none(const rival_work *work)
+{
+  complain("%s: the method %s has no icon in it", work->settings->reading.input,
+           fg_rival_name((fg_rival_method)work->settings->method));
+  advise("ask for more with --icons, or take another --method");
+  return EXIT_FAILED;
+}
+
 static int draw(rival_work *work, int count)
 {
   fg_icons *icons = NULL;
@@ -186,6 +198,8 @@ static int draw(rival_work *work, int count)
   fg_status status = make(work, count, &icons, &clusters);
   if (status)
     code = complain_of(work->context, status, work->settings->reading.input);
+  if (!code && fg_icons_count(icons) == 0)
+    code = complain_of_none(work);
   if (!code && !work->files)
     choose_speeds(work, icons);
   if (!code)

@@ -34,6 +34,8 @@ static int score_file(score_work *work, int number)
   if (!status)
     status = fg_icons_score(&work->scores[number], work->context, work->field, icons,
                             &options);
+  if (!status && fg_icons_count(icons) > 0 && work->scores[number].outside >= 1.0)
+    complain("%s: all its icons lie outside the field", path);
   fg_icons_destroy(icons);
   return status ? complain_of(work->context, status, path) : EXIT_DONE;
 }

@@ -237,10 +237,14 @@ static fg_status draw(fg_panel *panel, fg_texture **texture, fg_context *context
   options.speed_min = speeds[0];
   options.speed_max = speeds[1];
   options.columns = settings->columns;
+  double key_width = 0.0;
+  options.key_width = &key_width;
   fg_status status =
       make_backgrounds(panel, texture, context, panels, settings, &options);
-  return status ? status
-                : fg_panels_write(context, path, panel, panels->scales, &options);
+  if (!status)
+    status = fg_panels_write(context, path, panel, panels->scales, &options);
+  tell_key_width(settings->output ? settings->output : path, key_width);
+  return status;
 }
 
 int drawn_panels_read(drawn_panels *panels, fg_context *context,

@@ -22,8 +22,9 @@ static const option_entry input_entries[] = {
      .help = "likewise, the file with the mesh"},
     {"vars", 0, "U,V[,W]", DESCRIBERS, OPTION_TEXT, READING(vars),
      .help =
-         "the two or three variables, or one vector variable [found by their standard or "
-         "usual names; an ambiguous choice is an error that lists the choices]"},
+         "the two or three variables, a speed and its direction, or one vector variable "
+         "[found by their standard or usual names; an ambiguous choice is an error that "
+         "lists the choices]"},
     {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
      .help = "second file, which holds the other component, the positions, or the mesh"},
     {"mesh-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(mesh_from),
@@ -37,9 +38,12 @@ static const option_entry input_entries[] = {
              "last than that is from the next. run takes several, a folder each and up "
              "to 12 as panels of one figure, too: 0:11, 1982-01:1982-06, 0,6, all [0]"},
     {"level", 0, "LEVEL", READERS, OPTION_PLACES, READING(level_text),
-     .help = "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
-             "too, where there are fewer levels and one has that value; words that info "
-             "prints, as surface in GRIB [that at the surface of an ocean, else 0]"},
+     .help =
+         "which level, likewise: 2 is an index, 850hPa or 850. a value, and 850, "
+         "too, where there are fewer levels and one has that value; words that info "
+         "prints, as surface in GRIB; without levels, where one other dimension is left, "
+         "of that: the members of an ensemble, 0:3 [that at the surface of an ocean, "
+         "else 0]"},
     {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at), .once = true,
      .help = "of a dimension that is neither time nor level, as the members of an "
              "ensemble, the one to read: number=2 by its value or, where none has that, "

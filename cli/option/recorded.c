@@ -2,14 +2,16 @@
 
 #include <cjson/cJSON.h>
 #include <inttypes.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "option/table.h"
 
-/* Options without influence on results: place of output, speed, duration; and files, as
- * paths depend on the working directory (their contents are compared). */
+/* Options without influence on results: place of output, speed, duration; and files,
+ * whose paths depend on the working directory: files_match compares those of a finished
+ * run, a checkpoint what was read of them. */
 static const char *const no_part[] = {
     "output",    "vars-from", "mesh-from",  "max-memory", "max-time",
     "max-steps", "threads",   "checkpoint", "resume",     "force",
@@ -205,4 +207,98 @@ bool options_match(const cJSON *earlier, const run_settings *settings)
     return false;
   }
   return true;
+}
+
+static const struct {
+  const char *name, *option;
+  size_t place; /* of its path among reading_settings */
+} further_files[] = {
+    {"vars_from", "vars-from", offsetof(reading_settings, vars_from)},
+    {"mesh_from", "mesh-from", offsetof(reading_settings, mesh_from)},
+};
+enum { FURTHER_FILES = sizeof further_files / sizeof *further_files };
+
+static const char *further_path(const reading_settings *reading, int k)
+{
+  const char *path;
+  memcpy(&path, (const char *)reading + further_files[k].place, sizeof path);
+  return path;
+}
+
+static void add_text(cJSON *object, const char *name, const char *text)
+{
+  if (text)
+    cJSON_AddStringToObject(object, name, text);
+  else
+    cJSON_AddNullToObject(object, name);
+}
+
+/* The path from the root; NULL: there is no such file. For free(). */
+static char *absolute_path(const char *path)
+{
+  return path && !input_is_standard(path) ? realpath(path, NULL) : NULL;
+}
+
+void files_record(cJSON *input, const reading_settings *reading)
+{
+  char *absolute = absolute_path(reading->input);
+  add_text(input, "path", reading->input);
+  add_text(input, "absolute", absolute);
+  free(absolute);
+  for (int k = 0; k < FURTHER_FILES; ++k) {
+    const char *path = further_path(reading, k);
+    absolute = absolute_path(path);
+    add_text(input, further_files[k].name, absolute ? absolute : path);
+    free(absolute);
+  }
+}
+
+static const char *text_of(const cJSON *object, const char *name)
+{
+  return cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, name));
+}
+
+/* The same file can have several paths; synth:NAME has none. */
+static bool same_input(const cJSON *input, const char *operand)
+{
+  char *absolute = absolute_path(operand);
+  const char *earlier = text_of(input, "absolute"), *name = text_of(input, "path");
+  const bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
+                                        : name && strcmp(name, operand) == 0;
+  free(absolute);
+  return same;
+}
+
+/* Prints the difference of a further file. */
+static bool same_further(const cJSON *input, const reading_settings *reading, int k,
+                         const char *folder)
+{
+  const char *then = text_of(input, further_files[k].name);
+  const char *path = further_path(reading, k);
+  char *absolute = absolute_path(path);
+  const char *now = absolute ? absolute : path;
+  const bool same = then && now ? strcmp(then, now) == 0 : !then && !now;
+  if (!same) {
+    complain("%s: its run was begun %s --%s%s%s; this command goes %s --%s%s%s", folder,
+             then ? "with" : "without", further_files[k].option, then ? " " : "",
+             then ? then : "", now ? "with" : "without", further_files[k].option,
+             now ? " " : "", now ? now : "");
+    advise("Say the same options to go on, or start anew with --force.");
+  }
+  free(absolute);
+  return same;
+}
+
+bool files_match(const cJSON *input, const reading_settings *reading, const char *folder)
+{
+  bool same = same_input(input, reading->input);
+  if (!same) {
+    const char *earlier = text_of(input, "path");
+    complain("%s: holds the results of a run on %s", folder,
+             earlier ? input_name(earlier) : "another input");
+    advise("Choose another folder with -o, or replace its results with --force.");
+  }
+  for (int k = 0; k < FURTHER_FILES && same; ++k)
+    same = same_further(input, reading, k, folder);
+  return same;
 }

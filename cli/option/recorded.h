@@ -14,4 +14,12 @@ struct cJSON *options_record(const run_settings *settings);
  * both values. */
 bool options_match(const struct cJSON *earlier, const run_settings *settings);
 
+/* Adds which files were read: path and absolute of the input, vars_from and mesh_from. */
+void files_record(struct cJSON *input, const reading_settings *reading);
+
+/* Whether they are those of an earlier run's report, the same by any path. Otherwise
+ * prints an error, which names the folder. */
+bool files_match(const struct cJSON *input, const reading_settings *reading,
+                 const char *folder);
+
 #endif

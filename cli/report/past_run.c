@@ -120,36 +120,13 @@ bool report_has_page(const char *folder)
   return has;
 }
 
-/* The same file can have several paths; synth:NAME has none. */
-static bool same_input(const cJSON *input, const char *operand)
-{
-  char *absolute = input_is_standard(operand) ? NULL : realpath(operand, NULL);
-  const char *earlier = text_of(input, "absolute");
-  const char *name = text_of(input, "path");
-  bool same = absolute && earlier ? strcmp(absolute, earlier) == 0
-                                  : name && strcmp(name, operand) == 0;
-  free(absolute);
-  return same;
-}
-
-bool report_same_input(const void *input, const char *operand, const char *folder)
-{
-  if (same_input(input, operand))
-    return true;
-  const char *earlier = text_of(input, "path");
-  complain("%s: holds the results of a run on %s", folder,
-           earlier ? input_name(earlier) : "another input");
-  advise("Choose another folder with -o, or replace its results with --force.");
-  return false;
-}
-
 bool report_is_of(const char *folder, const run_settings *settings)
 {
   cli_report report;
   bool same = !report_read(&report, folder);
   if (same) {
     const cJSON *input = cJSON_GetObjectItemCaseSensitive(report.tree, "input");
-    same = report_same_input(input, settings->reading.input, folder);
+    same = files_match(input, &settings->reading, folder);
   }
   if (same)
     same =

@@ -21,9 +21,6 @@ bool report_has_page(const char *folder);
  * Otherwise prints an error. */
 bool report_is_of(const char *folder, const run_settings *settings);
 
-/* Whether a report's `input` is the given file; otherwise prints an error. */
-bool report_same_input(const void *input, const char *operand, const char *folder);
-
 /* A finished run, for `draw`; it owns its texts. */
 typedef struct cli_report {
   void *tree;

@@ -48,27 +48,13 @@ static void add_map(cJSON *input, const fg_map_options *map)
     cJSON_AddNumberToObject(object, "samples", map->samples);
 }
 
-/* Adds where a further file is, absolute if it can be. */
-static void add_path(cJSON *input, const char *name, const char *path)
-{
-  char *absolute = path ? realpath(path, NULL) : NULL;
-  add_text(input, name, absolute ? absolute : path);
-  free(absolute);
-}
-
 static void add_input(cJSON *root, const run_facts *facts)
 {
   const run_settings *settings = facts->settings;
   const fg_field_arrays *field = fg_field_contents(facts->field);
   cJSON *input = cJSON_AddObjectToObject(root, "input");
-  add_text(input, "path", settings->reading.input);
-  const bool standard = input_is_standard(settings->reading.input);
-  char *absolute = standard ? NULL : realpath(settings->reading.input, NULL);
-  add_text(input, "absolute", absolute);
-  free(absolute);
+  files_record(input, &settings->reading);
   add_text(input, "vars", settings->reading.vars);
-  add_path(input, "vars_from", settings->reading.vars_from);
-  add_path(input, "mesh_from", settings->reading.mesh_from);
   add_text(input, "at", settings->reading.at);
   add_text(input, "mask", settings->reading.mask);
   add_text(input, "block", settings->reading.block);

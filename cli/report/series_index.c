@@ -63,13 +63,7 @@ static cJSON *describe(const series_index *index)
   cJSON_AddStringToObject(root, "program", "flowgrain");
   cJSON_AddStringToObject(root, "version", fg_version());
   cJSON *input = cJSON_AddObjectToObject(root, "input");
-  cJSON_AddStringToObject(input, "path", settings->reading.input);
-  char *absolute = input_is_standard(settings->reading.input)
-                       ? NULL
-                       : realpath(settings->reading.input, NULL);
-  if (absolute)
-    cJSON_AddStringToObject(input, "absolute", absolute);
-  free(absolute);
+  files_record(input, &settings->reading);
   cJSON_AddItemToObject(root, "options", options_record(settings));
   cJSON *range = cJSON_AddArrayToObject(root, "speed_range");
   for (int k = 0; k < 2; ++k) {
@@ -157,8 +151,8 @@ bool index_matches(series_index *index)
   cJSON *root = read_index(settings->output);
   const cJSON *options = cJSON_GetObjectItemCaseSensitive(root, "options");
   bool same = root &&
-              report_same_input(cJSON_GetObjectItemCaseSensitive(root, "input"),
-                                settings->reading.input, settings->output) &&
+              files_match(cJSON_GetObjectItemCaseSensitive(root, "input"),
+                          &settings->reading, settings->output) &&
               options_match(options, settings) && has_members(index, root) &&
               take_speeds(index->speeds, root);
   cJSON_Delete(root);

@@ -124,6 +124,9 @@ static fg_status write_pictures(scale_maker *maker, int index,
   options.speed_max = maker->look.speeds[1];
   if (!settings_place(maker->settings))
     options.scale_time = snapshot->time;
+  double key_width = 0.0;
+  if (index == 0 && !maker->settings->quiet)
+    options.key_width = &key_width;
   fg_status status = background_choose(
       &options, &maker->background, maker->context, &maker->settings->picture,
       maker->settings->work.threads, maker->field, snapshot->density, icons);
@@ -136,6 +139,9 @@ static fg_status write_pictures(scale_maker *maker, int index,
     status = fg_picture_write(
         maker->context, path, maker->field,
         settings_place(maker->settings) ? regions : snapshot->density, icons, &options);
+    tell_key_width(maker->settings->output, key_width);
+    options.key_width = NULL;
+    key_width = 0.0;
     free(path);
   }
   return status;

@@ -29,7 +29,8 @@ typedef enum fg_frame {
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_read_options {
-  const char *vars;      /* "U,V", "U,V,W" or one vector variable; NULL: found */
+  const char *vars; /* "U,V", "U,V,W", a speed and its direction, or one vector variable;
+                       NULL: found */
   const char *vars_from; /* second file, with the other component(s), the positions or
                             the mesh; NULL: none */
   const char *mesh_from; /* file with the positions or the mesh, beside vars_from; NULL:

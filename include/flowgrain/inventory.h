@@ -33,8 +33,8 @@ typedef struct fg_inventory_vector {
   bool periodic[3];     /* along each axis, as longitude round the globe */
   const char *unusable; /* why it can not be read; NULL: it can */
   double normal_share;  /* of a plane in space: fg_field_normal_share at the first time */
-  const char *frame; /* of a model's grid: what the components are along, and which rule
-                        says so; NULL: along the axes */
+  const char *frame; /* of a model's grid, of a speed and a direction: what components are
+                        along, and which rule says so; NULL: along the axes */
   const char *plane; /* PROJ string of the plane in which a model's grid is even; NULL:
                         not known */
   size_t cells;  /* of an unstructured mesh that is interpolated onto the grid of `size`,

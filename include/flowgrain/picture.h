@@ -41,6 +41,9 @@ typedef struct fg_picture_options {
   double
       scale_time; /* t of the scale, for the caption [the density's; none without it] */
   int columns;    /* of fg_panels_write: panels in a row [from their shape] */
+  double *key_width; /* set to the width, in points, from which on a picture of this shape
+                        has room for the colour key, 0 where it has it, or shall have none
+                        [not told] */
 } fg_picture_options;
 
 /* One of several panels in a figure. All are borrowed. */

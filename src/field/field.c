@@ -355,6 +355,20 @@ static fg_status copy_words(fg_field *field, fg_context *context,
   return copied ? FG_STATUS_OK : fg__fail_memory(context, "the field's words", 0);
 }
 
+fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title)
+{
+  char *copy = fg__copy_text(title);
+  if (!copy)
+    return fg__fail_memory(context, "the field's words", 0);
+  for (int i = 0; i < field->words; ++i)
+    if (field->word[i] == field->contents.title) {
+      free(field->word[i]);
+      field->word[i] = copy;
+    }
+  field->contents.title = copy;
+  return FG_STATUS_OK;
+}
+
 static fg_status begin_part(fg_field *field, fg_context *context, int number, int count)
 {
   const int last = fg__field_last_axis(field), rows = field->axis[last].samples;

@@ -44,6 +44,9 @@ struct fg_field {
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };
 
+/* Gives another title to a field that is no window. MEMORY. */
+fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title);
+
 static inline bool fg__field_is_whole(const fg_field *field)
 {
   return !field->slab && !field->of;

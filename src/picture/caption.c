@@ -1,6 +1,5 @@
 #include "picture/caption.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -188,21 +187,35 @@ void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const ch
 typedef struct caption_texts {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
       level[FG__CAPTION_BYTES], scale[32], arrows[32];
-  bool has_names;      /* other than u, v and one name for all components */
-  bool in_words;       /* the title is of a file that describes its variables */
-  bool names_of_title; /* the names are the title's components, as U_x and U_y of U */
+  bool has_names; /* other than u, v, those in the title, and one name for all */
 } caption_texts;
 
-static bool names_components(const fg_field_arrays *field)
+/* Length of the name that a vector variable has where its components are called after it,
+ * U_x and U_y; 0 for others. */
+static size_t vector_name(const fg_field_arrays *field)
 {
-  const size_t length = strlen(field->title);
+  const size_t whole = strlen(field->velocity_name[0]),
+               length = whole < 2 ? 0 : whole - 2;
   for (int k = 0; k < field->dimension; ++k) {
     const char *name = field->velocity_name[k];
-    if (strncmp(name, field->title, length) != 0 || name[length] != '_' ||
-        name[length + 1] != "xyz"[k] || name[length + 2])
-      return false;
+    if (strlen(name) != length + 2 || name[length] != '_' ||
+        name[length + 1] != "xyz"[k] ||
+        strncmp(name, field->velocity_name[0], length) != 0)
+      return 0;
   }
-  return true;
+  return length;
+}
+
+/* A number below zero has the minus sign that ticks have. */
+static void write_minus(char text[FG__CAPTION_BYTES])
+{
+  static const char minus[] = "\xE2\x88\x92";
+  char *at = strstr(text, " -");
+  if (!at || !strchr("0123456789.", at[2]) || !at[2] ||
+      strlen(text) + sizeof minus > FG__CAPTION_BYTES)
+    return;
+  memmove(at + sizeof minus, at + 2, strlen(at + 2) + 1);
+  memcpy(at + 1, minus, sizeof minus - 1);
 }
 
 static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
@@ -217,13 +230,15 @@ static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
     size_t used = strlen(names);
     snprintf(names + used, sizeof names - used, ", %.100s", field->velocity_name[2]);
   }
+  const size_t of_vector = vector_name(field);
+  if (of_vector > 0)
+    snprintf(names, sizeof names, "%.*s", (int)of_vector, field->velocity_name[0]);
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
   out->has_names = out->has_names && strcmp(out->names, out->title) != 0;
-  out->names_of_title = names_components(field);
-  out->in_words = field->scale != FG_SCALE_PLAIN && !out->names_of_title;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
+  write_minus(out->level);
   out->scale[0] = '\0';
   if (panel->scale_time > 0.0)
     snprintf(out->scale, sizeof out->scale, "scale t = %.3g", panel->scale_time);
@@ -270,6 +285,36 @@ static char *text_at(caption_texts *texts, int k)
   return words[k];
 }
 
+/* Keeps of a time what another has, too: the day of dates, or what stands in brackets at
+ * the end, as in "16 May (climatology)". */
+static void keep_shared_time(char time[FG__CAPTION_BYTES], const char *other)
+{
+  const char *end = strrchr(time, '('), *others = strrchr(other, '(');
+  if (strcmp(time, other) == 0)
+    return;
+  if (date_length(time) && date_length(other) && strncmp(time, other, 10) == 0)
+    time[10] = '\0';
+  else if (end && others && strcmp(end, others) == 0)
+    memmove(time, end, strlen(end) + 1);
+  else
+    time[0] = '\0';
+}
+
+/* Takes what all panels share out of one's time, and brackets round it. */
+static void leave_out_shared_time(char time[FG__CAPTION_BYTES], const char *shared)
+{
+  char *at = *shared && strcmp(time, shared) != 0 ? strstr(time, shared) : NULL;
+  if (at == time) {
+    at += strlen(shared);
+    at += strspn(at, " ");
+    memmove(time, at, strlen(at) + 1);
+  } else if (at) {
+    at[-1] = '\0';
+    while (--at > time && at[-1] == ' ')
+      at[-1] = '\0';
+  }
+}
+
 /* The texts that all panels have in common, "" for others. */
 static void collect_common(caption_texts *out, const fg__caption_panel *panel, int count)
 {
@@ -277,9 +322,17 @@ static void collect_common(caption_texts *out, const fg__caption_panel *panel, i
   collect_texts(out, &panel[0]);
   for (int n = 1; n < count; ++n) {
     collect_texts(&other, &panel[n]);
+    keep_shared_time(out->time, other.time);
+    if (out->time[0])
+      snprintf(other.time, sizeof other.time, "%s", out->time);
     for (int k = 0; k < TEXTS; ++k)
       if (strcmp(text_at(out, k), text_at(&other, k)) != 0)
         text_at(out, k)[0] = '\0';
+  }
+  const size_t length = strlen(out->time);
+  if (out->time[0] == '(' && out->time[length - 1] == ')') {
+    memmove(out->time, out->time + 1, length - 2);
+    out->time[length - 2] = '\0';
   }
 }
 
@@ -297,7 +350,7 @@ static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const caption_texts
 {
   char words[64];
   const fg_icons *icons = panel[0].icons;
-  if (texts->title[0] && texts->has_names && !texts->names_of_title)
+  if (texts->title[0] && texts->has_names)
     add_part(subtitle, texts->names);
   add_part(subtitle, texts->time);
   add_part(subtitle, texts->level);
@@ -320,15 +373,12 @@ static void list_values(fg__caption_value out[CAPTION_NAMES], const caption_text
   memcpy(out, values, sizeof values);
 }
 
-/* A name in words begins as a sentence does: "wind at 10 m"; that of a variable or of an
- * analytic field stays. */
-static void begin_sentence(char *title, const caption_texts *texts)
+/* A name in words begins as a sentence does: "wind at 10 m"; "ua_850" and "rhoU" are no
+ * words, and the names of analytic fields are the program's. */
+static void begin_sentence(char *title)
 {
   const size_t letters = strspn(title, "abcdefghijklmnopqrstuvwxyz");
-  const bool word = letters > 1 && !strchr("_,", title[letters] ? title[letters] : ' ') &&
-                    !isupper((unsigned char)title[letters]) &&
-                    !isdigit((unsigned char)title[letters]);
-  if (word && texts->in_words)
+  if (letters > 1 && strchr(" -", title[letters]) && !strstr(title, "(analytic)"))
     title[0] = (char)(title[0] - 'a' + 'A');
 }
 
@@ -346,7 +396,7 @@ void fg__caption_write_common(char title[FG__CAPTION_BYTES],
     fg__caption_fill(title, wanted[0], values, CAPTION_NAMES);
   else if (own.title[0]) {
     snprintf(title, FG__CAPTION_BYTES, "%s", own.title);
-    begin_sentence(title, &own);
+    begin_sentence(title);
   } else if (own.has_names)
     snprintf(title, FG__CAPTION_BYTES, "%s", own.names);
   if (wanted[1])
@@ -389,6 +439,7 @@ void fg__caption_write_label(char label[FG__CAPTION_BYTES],
     return;
   }
   collect_common(&common, panel, count);
+  leave_out_shared_time(own.time, common.time);
   for (int n = 0; n < TEXTS; ++n)
     if (strcmp(text_at(&own, n), text_at(&common, n)) != 0)
       add_part(rest, text_at(&own, n) == own.arrows

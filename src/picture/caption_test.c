@@ -64,41 +64,43 @@ static void components_of_the_title_are_not_named_again(void **state)
   const char *const wanted[2] = {NULL, NULL};
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(title, "vel");
+  assert_string_equal(title, "Vel");
   assert_string_equal(subtitle, "2 arrows");
   field.velocity_name[1] = "vel_z"; /* a plane of a volume */
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
   assert_string_equal(subtitle, "vel_x, vel_z \xC2\xB7 2 arrows");
+  field.velocity_name[1] = "vel_y";
+  field.title = "Pipe flow";
+  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
+  assert_string_equal(subtitle, "vel \xC2\xB7 2 arrows");
+  field.velocity_name[1] = "vel_z";
   field.title = "vel_x, vel_z"; /* of a file without words for them */
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
   assert_string_equal(subtitle, "2 arrows");
   fg_icons_destroy(icons);
 }
 
-/* Of a field on the Earth, whose file describes it; a title that was asked for stays. */
+/* A name that is no word stays, and a title that was asked for. */
 static void a_title_in_words_begins_with_a_capital(void **state)
 {
   static const struct {
     const char *title, *wanted, *expected;
-    fg_scale scale;
   } cases[] = {
-      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_GEO},
-      {"wind at 10 m", NULL, "Wind at 10 m", FG_SCALE_MAP},
-      {"wind at 10 m", "{title}", "wind at 10 m", FG_SCALE_GEO},
-      {"vortex (analytic)", NULL, "vortex (analytic)", FG_SCALE_PLAIN},
-      {"u10, v10", NULL, "u10, v10", FG_SCALE_GEO},
-      {"ua_850", NULL, "ua_850", FG_SCALE_GEO},
-      {"ua, va", NULL, "ua, va", FG_SCALE_GEO},
-      {"sea-surface wind", NULL, "Sea-surface wind", FG_SCALE_GEO},
-      {"horizontalVelX, horizontalVelY", NULL, "horizontalVelX, horizontalVelY",
-       FG_SCALE_GEO},
+      {"wind at 10 m", NULL, "Wind at 10 m"},
+      {"velocity", NULL, "Velocity"},
+      {"wind at 10 m", "{title}", "wind at 10 m"},
+      {"vortex (analytic)", NULL, "vortex (analytic)"},
+      {"u10, v10", NULL, "u10, v10"},
+      {"ua_850", NULL, "ua_850"},
+      {"ua, va", NULL, "ua, va"},
+      {"cavity.old", NULL, "cavity.old"},
+      {"sea-surface wind", NULL, "Sea-surface wind"},
+      {"horizontalVelX, horizontalVelY", NULL, "horizontalVelX, horizontalVelY"},
   };
   fg_icons *icons = lines(*state, 2);
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    const fg_field_arrays field = {.dimension = 2,
-                                   .velocity_name = {"u", "v"},
-                                   .title = cases[n].title,
-                                   .scale = cases[n].scale};
+    const fg_field_arrays field = {
+        .dimension = 2, .velocity_name = {"u", "v"}, .title = cases[n].title};
     char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
     const char *const wanted[2] = {cases[n].wanted, NULL};
     fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
@@ -220,23 +222,34 @@ static void panels_are_told_apart(void **state)
   fg_icons_destroy(more);
 }
 
-/* Where one date has an hour, all have. */
-static void dates_of_panels_go_equally_far(void **state)
+/* Where one date has an hour, all have; what all share is in the subtitle alone. */
+static void times_of_panels_are_told_in_one_way(void **state)
 {
   (void)state;
   static const struct {
-    const char *time[3], *label[3];
+    const char *time[3], *label[3], *shared;
   } cases[] = {
       {{"2016-01-14", "2016-01-14 01:00", "2016-01-15"},
-       {"(a) 2016-01-14 00:00", "(b) 2016-01-14 01:00", "(c) 2016-01-15 00:00"}},
+       {"(a) 2016-01-14 00:00", "(b) 2016-01-14 01:00", "(c) 2016-01-15 00:00"},
+       ""},
       {{"2016-01-14 06:00", "2016-01-14", "2016-01-14 06:00:30"},
-       {"(a) 2016-01-14 06:00:00", "(b) 2016-01-14 00:00:00", "(c) 2016-01-14 06:00:30"}},
+       {"(a) 06:00:00", "(b) 00:00:00", "(c) 06:00:30"},
+       "2016-01-14"},
+      {{"16 May (climatology)", "16 June (climatology)", "16 July (climatology)"},
+       {"(a) 16 May", "(b) 16 June", "(c) 16 July"},
+       "climatology"},
+      {{"16 May (climatology)", "16 June (climatology)", "16 July (mean)"},
+       {"(a) 16 May (climatology)", "(b) 16 June (climatology)", "(c) 16 July (mean)"},
+       ""},
       {{"2016-01-14", "2016-01-15", "t = 2.5"},
-       {"(a) 2016-01-14", "(b) 2016-01-15", "(c) t = 2.5"}},
+       {"(a) 2016-01-14", "(b) 2016-01-15", "(c) t = 2.5"},
+       ""},
       {{"January", "2016-01-14 01:00", NULL},
-       {"(a) January", "(b) 2016-01-14 01:00", "(c)"}},
+       {"(a) January", "(b) 2016-01-14 01:00", "(c)"},
+       ""},
   };
-  char label[FG__CAPTION_BYTES];
+  char label[FG__CAPTION_BYTES], title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  const char *const given[2] = {NULL, NULL};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
     fg_field_arrays field[3];
     fg__caption_panel panel[3];
@@ -251,6 +264,27 @@ static void dates_of_panels_go_equally_far(void **state)
       fg__caption_write_label(label, panel, 3, k, NULL);
       assert_string_equal(label, cases[n].label[k]);
     }
+    fg__caption_write_common(title, subtitle, panel, 3, given);
+    assert_string_equal(subtitle, cases[n].shared);
+  }
+}
+
+static void a_level_below_zero_has_a_minus_sign(void **state)
+{
+  (void)state;
+  static const char *const cases[][2] = {
+      {"s_rho -0.921875", "s_rho \xE2\x88\x92"
+                          "0.921875"},
+      {"z = -.5", "z = \xE2\x88\x92.5"},
+      {"model -b 2-3", "model -b 2-3"},
+      {"z -", "z -"},
+  };
+  char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg_field_arrays field = {
+        .dimension = 2, .velocity_name = {"u", "v"}, .title = "", .level = cases[n][0]};
+    fg__caption_write(title, subtitle, &field, NULL, (const char *[2]){NULL, NULL}, 0.0);
+    assert_string_equal(subtitle, cases[n][1]);
   }
 }
 
@@ -286,9 +320,10 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(names_without_a_value_leave_nothing, context_set_up,
                                       context_tear_down),
-      cmocka_unit_test(dates_of_panels_go_equally_far),
+      cmocka_unit_test(times_of_panels_are_told_in_one_way),
       cmocka_unit_test_setup_teardown(panels_are_told_apart, context_set_up,
                                       context_tear_down),
+      cmocka_unit_test(a_level_below_zero_has_a_minus_sign),
       cmocka_unit_test(letters_go_on_after_z),
   };
   return cmocka_run_group_tests_name("picture/caption", tests, NULL, NULL);

@@ -37,6 +37,10 @@ static const double CHAIN_STEP = 0.1; /* in lambda */
 
 const fg__place_schedule fg__place_first_schedule = {0.8, 1.25};
 
+/* Gaps are filled evenly up to this share of the icons that a first scale begins with;
+ * the others come where readers err most. */
+static const double EVEN_SHARE = 0.84;
+
 /* The most ink of a free placement (fg__place_ink). Where it would be more its penalty
  * comes to what leaves so much, as ink that is left unused is error. */
 static const double MOST_INK = 1.495, WANTED_INK = 1.488, LEAST_INK = 1.475;
@@ -115,23 +119,22 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count)
   return status;
 }
 
-static fg_status start(fg__place_descent *descent, int count, const fg_icons *clusters)
+/* Starts from icons, and from even points where these are fewer than `even`. */
+static fg_status start(fg__place_descent *descent, int count, int even,
+                       const fg_icons *clusters)
 {
   fg_status status = fg__descent_begin(descent, count);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_search *search = descent->search;
-  if (!clusters)
-    return fg__place_start_even(search);
-  for (int n = 0; n < fg_icons_count(clusters) && status == FG_STATUS_OK; ++n) {
+  for (int n = 0; clusters && n < fg_icons_count(clusters) && status == FG_STATUS_OK;
+       ++n) {
     fg__place_seed seed = fg__place_seed_of(fg_icons_at(clusters, n), &search->scale);
     bool added;
     status = fg__place_add(search, &added, &seed, search->next_identity);
     search->next_identity += added;
   }
-  if (status == FG_STATUS_OK && search->count == 0) /* all clusters were too small */
-    status = fg__place_start_even(search);
-  return status;
+  return status == FG_STATUS_OK ? fg__place_fill_evenly(search, even) : status;
 }
 
 static void adjust_penalty(fg__place_search *search, double share)
@@ -257,7 +260,8 @@ fg_status fg__descent_first(fg__place_descent *descent, int count,
                             const fg_icons *clusters, const fg__place_schedule *by)
 {
   const int more = (int)fmin(by->start * count, fg__descent_most(descent->domain));
-  fg_status status = start(descent, more > count ? more : count, clusters);
+  const int first = more > count ? more : count;
+  fg_status status = start(descent, first, (int)(EVEN_SHARE * first), clusters);
   if (status == FG_STATUS_OK)
     status = relax_to_count(descent->search);
   return status == FG_STATUS_OK ? fg__descent_go_down(descent, count, by->ratio) : status;
@@ -266,7 +270,7 @@ fg_status fg__descent_first(fg__place_descent *descent, int count,
 fg_status fg__descent_near(fg__place_descent *descent, int count, const fg_icons *icons)
 {
   const effort *work = &EFFORTS[descent->options->effort];
-  fg_status status = start(descent, count, icons);
+  fg_status status = start(descent, count, 0, icons);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_search *search = descent->search;

@@ -15,6 +15,13 @@ enum { FEWEST_2D = 128, MOST_2D = 512, FEWEST_3D = 48, MOST_3D = 112 };
  * square: a vessel in a box of noise (docs/method/placement.md). */
 static const double DEAD_SHARE = 0.1;
 
+/* The least share of the domain that arrows are made for, which bounds the rasters' size
+ * where next to nothing moves. */
+static const double LEAST_SHARE = 1.0 / 64.0;
+
+/* Slower than this share of the greatest speed there is no direction to read. */
+static const double STILL = 1e-3;
+
 static size_t map_count(const fg__place_domain *domain)
 {
   return (size_t)domain->cells[0] * (size_t)domain->cells[1] * (size_t)domain->cells[2];
@@ -109,6 +116,11 @@ double fg__place_weight(const fg__place_domain *domain, double speed)
   return domain->dead ? speed * speed / (speed * speed + square) : 1.0;
 }
 
+bool fg__place_moves(const fg__place_domain *domain, double speed)
+{
+  return speed > STILL * domain->greatest;
+}
+
 static void choose_map(fg__place_domain *domain)
 {
   const fg_field_arrays *arrays = fg_field_contents(domain->field);
@@ -201,11 +213,14 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
   domain->root_mean_square = sqrt(squares / (double)count);
   domain->dead =
       domain->dimension == 3 && domain->median < DEAD_SHARE * domain->root_mean_square;
+  const bool all = domain->dead || fg__place_moves(domain, domain->median);
   for (size_t n = 0; n < count; ++n)
-    weights += fg__place_weight(domain, (double)speed[n]);
+    if (all || fg__place_moves(domain, (double)speed[n]))
+      weights += fg__place_weight(domain, (double)speed[n]);
   double cell = pow(domain->spacing, domain->dimension);
   domain->whole = cell * (double)count;
-  domain->measure = cell * weights / fg__place_weight(domain, domain->greatest);
+  domain->measure = fmax(LEAST_SHARE * domain->whole,
+                         cell * weights / fg__place_weight(domain, domain->greatest));
   return FG_STATUS_OK;
 }
 

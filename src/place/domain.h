@@ -24,9 +24,10 @@ typedef struct fg__place_domain {
   int *subdomain;   /* a cell: which subdomain from 1 on, 0 outside */
   fg__place_subdomain *subdomains;
   int subdomain_count;
-  double whole;    /* area or volume of the domain */
-  double measure;  /* of what counts: less than the whole where much of it is dead */
-  double greatest; /* speed */
+  double whole; /* area or volume of the domain */
+  double
+      measure; /* of what counts: less than the whole where half of it is dead or still */
+  double greatest;                       /* speed */
   double median, fast, root_mean_square; /* fast: exceeded by a twentieth */
   bool dead; /* most of the domain hardly moves: speed weighs */
 } fg__place_domain;
@@ -50,6 +51,9 @@ double fg__place_clearance(const fg__place_domain *domain, const double position
 /* The subdomain that holds a point, NULL outside the domain. */
 const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain,
                                                   const double position[3]);
+
+/* Whether a speed is enough for a direction to be read. */
+bool fg__place_moves(const fg__place_domain *domain, double speed);
 
 /* What a point counts in (0, 1], by its speed. */
 double fg__place_weight(const fg__place_domain *domain, double speed);

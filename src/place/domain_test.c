@@ -141,6 +141,27 @@ static void dead_volume_hardly_counts(void **state)
   fg_field_destroy(field);
 }
 
+/* The vessel in a wall that does not move, in which the solver left a rest. */
+static void wall(const double position[3], double v[3])
+{
+  vessel(position, v);
+  if (v[0] < 8)
+    v[0] = v[1] = v[2] = 1e-9;
+}
+
+static void what_stands_still_has_no_share(void **state)
+{
+  const sampling plane = {
+      .dimension = 2, .nodes = {41, 81}, .low = {-7, 1}, .high = {-2, 9}};
+  fg_field *field = field_of(*state, &plane, wall);
+  fg__place_domain domain = domain_of(*state, field);
+  assert_close(domain.whole, 5 * 8, 0.5);
+  assert_close(domain.measure, 5 * 1.6, 1);
+  assert_true(fg__place_moves(&domain, 0.1) && !fg__place_moves(&domain, 1e-9));
+  fg__place_domain_clear(&domain);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -149,6 +170,7 @@ int main(void)
       CASE(clearance_is_that_to_the_frame_or_a_wall),
       CASE(a_period_belongs_to_the_domain),
       CASE(dead_volume_hardly_counts),
+      CASE(what_stands_still_has_no_share),
   };
   return cmocka_run_group_tests_name("place/domain", tests, NULL, NULL);
 }

@@ -169,42 +169,9 @@ static void placing_lowers_the_error(void **state)
   fg_field_destroy(field);
 }
 
-/* A thorough search makes the placement of the normal one and others, and takes the best;
- * it makes none that would not fit. */
-static void a_thorough_search_is_better(void **state)
-{
-  const struct {
-    const sampling *box;
-    velocity_of velocity;
-    int count;
-  } cases[] = {{&PLAIN, coast, 50}, {&SOLID, hall, 20}};
-  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
-    fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
-    double error[2];
-    for (int k = 0; k < 2; ++k) {
-      fg_placement *placement =
-          placement_of(*state, field, k ? FG_EFFORT_THOROUGH : FG_EFFORT_NORMAL);
-      fg_icons *icons = place(*state, placement, cases[n].count);
-      fg_score score;
-      const fg_score_options options = {.lengths = FG_SCORE_FREE, .readers_only = true};
-      assert_int_equal(fg_icons_count(icons), cases[n].count);
-      assert_int_equal(fg_icons_score(&score, *state, field, icons, &options),
-                       FG_STATUS_OK);
-      error[k] = score.mean;
-      fg_icons_destroy(icons);
-      fg_placement_destroy(placement);
-    }
-    assert_true(error[1] < error[0]);
-    fg_field_destroy(field);
-  }
-  const sampling cell = {
-      .dimension = 2, .nodes = {2, 2}, .low = {-3, 4}, .high = {5, 11}};
-  fg_field *field = field_of(*state, &cell, slant); /* has room for 200 */
-  fg_placement *placement = placement_of(*state, field, FG_EFFORT_THOROUGH);
-  fg_icons_destroy(place(*state, placement, 190));
-  fg_placement_destroy(placement);
-  fg_field_destroy(field);
-}
+/* The diffusion reader's iteration goes on from where it ended: criteria that differ by
+ * less than this factor are the same. */
+static const double SAME = 1.001;
 
 /* What a search compares placements by. */
 static double criterion_of(const fg_placement *placement)
@@ -215,6 +182,42 @@ static double criterion_of(const fg_placement *placement)
   assert_int_equal(fg__place_error(search, &error), FG_STATUS_OK);
   assert_int_equal(fg__place_touching(search, &touching), FG_STATUS_OK);
   return error * (1.0 + 4.0 * touching);
+}
+
+/* A thorough search makes the placement of the normal one and others, and takes the best;
+ * it makes none that would not fit. */
+static void a_thorough_search_is_better(void **state)
+{
+  const struct {
+    const sampling *box;
+    velocity_of velocity;
+    int count;
+  } cases[] = {{&PLAIN, coast, 50}, {&SOLID, hall, 20}};
+  int better = 0;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
+    double criterion[2];
+    for (int k = 0; k < 2; ++k) {
+      fg_placement *placement =
+          placement_of(*state, field, k ? FG_EFFORT_THOROUGH : FG_EFFORT_NORMAL);
+      fg_icons *icons = place(*state, placement, cases[n].count);
+      assert_int_equal(fg_icons_count(icons), cases[n].count);
+      criterion[k] = criterion_of(placement);
+      fg_icons_destroy(icons);
+      fg_placement_destroy(placement);
+    }
+    assert_true(criterion[1] <= SAME * criterion[0]);
+    better += SAME * criterion[1] < criterion[0];
+    fg_field_destroy(field);
+  }
+  assert_true(better > 0);
+  const sampling cell = {
+      .dimension = 2, .nodes = {2, 2}, .low = {-3, 4}, .high = {5, 11}};
+  fg_field *field = field_of(*state, &cell, slant); /* has room for 200 */
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_THOROUGH);
+  fg_icons_destroy(place(*state, placement, 190));
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
 }
 
 /* From one finer scale a few are placed the better the more are tried. */
@@ -233,8 +236,8 @@ static void few_are_searched_for_thoroughly(void **state)
     criterion[k] = criterion_of(placement);
     fg_placement_destroy(placement);
   }
-  assert_true(criterion[1] < criterion[0]);
-  assert_true(criterion[2] <= criterion[1]);
+  assert_true(SAME * criterion[1] < criterion[0]);
+  assert_true(criterion[2] <= SAME * criterion[1]);
   fg_icons_destroy(finer);
   fg_placement_destroy(first);
   fg_field_destroy(field);

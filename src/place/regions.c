@@ -127,10 +127,13 @@ fg_status fg__place_measure_regions(fg__place_region *out, fg_context *context,
         double point[3] = {0};
         for (int k = 0; k < search->scale.dimension; ++k)
           point[k] = all.low[k] + node[k] * all.spacing[k];
-        if (all.owner[at] < 0 || !fg__place_subdomain_at(search->domain, point))
+        double v[3] = {0};
+        /* the map's cells at the domain's boundary reach beyond it */
+        if (all.owner[at] < 0 || !fg__place_subdomain_at(search->domain, point) ||
+            !fg_field_velocity(search->domain->field, point, v))
           continue;
         out[all.owner[at]].measure += cell;
-        out[all.owner[at]].speed += cell * fg__place_speed(search->domain, point);
+        out[all.owner[at]].speed += cell * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
       }
   for (int n = 0; n < search->count; ++n)
     if (out[n].measure > 0.0)

@@ -53,10 +53,32 @@ static void regions_are_those_of_the_arrows(void **state)
   fg_field_destroy(field);
 }
 
+/* A constant flow with many holes. */
+static void pierced(const double position[3], double v[3])
+{
+  const bool hole = sin(5.0 * position[0]) * sin(5.0 * position[1]) > 0.6;
+  v[0] = hole ? (double)NAN : 1.5;
+  v[1] = 0.5;
+}
+
+/* Nothing of a hole counts as slow. */
+static void speeds_are_means_over_what_is_there(void **state)
+{
+  fg_field *field = field_of(*state, &PLAIN, pierced);
+  fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
+  fg_icons *icons = place(*state, placement, 15);
+  for (int n = 0; n < 15; ++n)
+    assert_close(fg_icons_at(icons, n)->speed, hypot(1.5, 0.5), 1e-5);
+  fg_icons_destroy(icons);
+  fg_placement_destroy(placement);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(regions_are_those_of_the_arrows),
+      CASE(speeds_are_means_over_what_is_there),
   };
   return cmocka_run_group_tests_name("place/regions", tests, NULL, NULL);
 }

@@ -93,7 +93,7 @@ static void what_can_not_be_reached_is_refused(void **state)
   int most;
   double degrees, reached;
   if (sscanf(message,
-             "the field can not be read within %lf degrees: with %d arrows it is "
+             "the field cannot be read within %lf degrees: with %d arrows it is "
              "read within %lf",
              &degrees, &most, &reached) != 3)
     fail_msg("%s", message);

@@ -3,8 +3,10 @@
 #include "base/mix.h"
 #include "field/slab.h"
 #include "map/project.h"
+#include "read/foreign.h"
 #include "read/format.h"
 #include "read/mapped.h"
+#include "read/title.h"
 
 #include <ctype.h>
 #include <stdint.h>
@@ -25,16 +27,28 @@ const fg__format *fg__format_find(const unsigned char *bytes, size_t size)
   return NULL;
 }
 
-/* A format's name in small letters, with dashes; whether it is `word`, or begins so. */
+static int plain_letter(char letter)
+{
+  return letter == ' ' ? '-' : tolower((unsigned char)letter);
+}
+
+/* Whether a format's name is `word`, or begins so, whichever the size of letters and with
+ * dashes or blanks; or whether its files' names end so, as csv. */
 static bool is_called(const fg__format *format, const char *word)
 {
   const char *name = format->name;
-  for (; *word; ++word, ++name) {
-    const int letter = *name == ' ' ? '-' : tolower((unsigned char)*name);
-    if (letter != *word)
-      return false;
-  }
-  return *name == '\0' || *name == ' ';
+  const size_t length = strlen(word);
+  size_t same = 0;
+  while (same < length && name[same] &&
+         plain_letter(name[same]) == plain_letter(word[same]))
+    ++same;
+  if (same == length && (name[same] == '\0' || name[same] == ' '))
+    return true;
+  for (const char *at = length ? format->files : NULL;
+       at && (at = strchr(at, '.')) != NULL; ++at)
+    if (strncmp(at + 1, word, length) == 0 && strchr(",)", at[1 + length]))
+      return true;
+  return false;
 }
 
 /* The format of a name; of two of that name the one that knows the bytes. */
@@ -81,6 +95,15 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   if (wanted)
     return find_named(out, context, wanted, source);
   *out = fg__format_find(source->bytes, source->size);
+  const fg__foreign *foreign = !*out || *out == &fg__format_table
+                                   ? fg__foreign_find(source->bytes, source->size)
+                                   : NULL;
+  if (foreign) {
+    fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is %s, which cannot be read",
+             source->path, foreign->name);
+    fg__hint(context, "%s", foreign->advice);
+    return FG_STATUS_FILE_FORMAT;
+  }
   if (*out)
     return FG_STATUS_OK;
   char start[3 * 4 + 1] = "";
@@ -194,6 +217,12 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
     status = name_the_file(
         context, fg__field_read_known(out, context, format, &source, options, slab),
         input);
+  if (status == FG_STATUS_OK)
+    status = fg__title_from_file(*out, context, &source, options);
+  if (status != FG_STATUS_OK) {
+    fg_field_destroy(*out);
+    *out = NULL;
+  }
   fg__source_close(&source);
   return status;
 }

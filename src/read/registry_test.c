@@ -83,13 +83,31 @@ static void unknown_formats_are_told_the_known_ones(void **state)
   place *p = *state;
   write_file(p, "");
   refuse(p, p->path, FG_STATUS_FILE_FORMAT, "empty");
-  write_file(p, "PK\003\004 a zip archive");
+  write_file(p, "PL\003\004 not an archive");
   refuse(p, p->path, FG_STATUS_FILE_FORMAT,
-         "unknown format (18 bytes, starting with 50 4b");
+         "unknown format (19 bytes, starting with 50 4c");
   assert_non_null(strstr(fg_context_hint(p->context), "NetCDF"));
   assert_non_null(strstr(fg_context_hint(p->context), ".vti"));
   write_file(p, "\n");
   refuse(p, p->path, FG_STATUS_FILE_FORMAT, "starting with 0a)");
+}
+
+static void files_of_others_are_named(void **state)
+{
+  static const char *const files[][2] = {
+      {"\x1f\x8b\x08 and so on", "is compressed by gzip, which"},
+      {"PK\003\004 and so on", "is a ZIP archive"},
+      {"MATLAB 5.0 MAT-file, Platform: GLNXA64", "is a .mat file of MATLAB"},
+      {"\xff\xfex", "is text in UTF-16"},
+      {"\n<!DOCTYPE html>\n<title>404</title>", "is a web page"},
+      {"/*---*\\\n\\*---*/\nFoamFile\n{\n}\n(1 2 3 4)\n(1 2 3 4)\n", "of OpenFOAM"},
+      {"FORMAT\ntype: ensight gold\n", "is a case of EnSight"}};
+  place *p = *state;
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+    write_file(p, files[i][0]);
+    refuse(p, p->path, FG_STATUS_FILE_FORMAT, files[i][1]);
+    assert_true(fg_context_hint(p->context)[0]);
+  }
 }
 
 static void impossible_calls_are_refused(void **state)
@@ -237,6 +255,12 @@ static void bytes_are_an_input(void **state)
       {{words, sizeof words - 1, NULL, 0.0}, FG_STATUS_OK, ""},
       {{words, sizeof words - 1, "vtk", 0.0}, FG_STATUS_OK, ""},
       {{words, sizeof words - 1, "vtk-xml", 48.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, "VTK XML", 0.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, "vti", 0.0}, FG_STATUS_OK, ""},
+      {{table, sizeof table - 1, "csv", 0.0}, FG_STATUS_OK, ""},
+      {{words, sizeof words - 1, "", 0.0},
+       FG_STATUS_ARGUMENT,
+       "standard input: no format is called \"\""},
       {{words, sizeof words - 1, NULL, 47.0},
        FG_STATUS_UNSUPPORTED,
        "standard input: a field of 6 samples takes"},
@@ -275,6 +299,7 @@ int main(void)
       CASE(what_is_no_file_is_refused),
       CASE(files_that_may_not_be_read_are_refused),
       CASE(unknown_formats_are_told_the_known_ones),
+      CASE(files_of_others_are_named),
       CASE(impossible_calls_are_refused),
       CASE(analytic_fields_are_inputs_too),
       CASE(inventories_own_their_words),

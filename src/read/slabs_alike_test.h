@@ -9,6 +9,7 @@
 #include "field/fingerprint.h"
 #include "field/slab.h"
 #include "read/format.h"
+#include "read/title.h"
 
 static inline void assert_same_text(const char *a, const char *b)
 {
@@ -90,6 +91,8 @@ static inline void assert_slabs_alike(const fg__format *format, const fg__source
       assert_true((part != NULL) == (status == FG_STATUS_OK));
       read = read && part;
       if (part && whole) {
+        assert_int_equal(fg__title_from_file(part, context, source, options),
+                         FG_STATUS_OK);
         assert_same_grid(part, whole);
         assert_same_rows(part, whole);
       }

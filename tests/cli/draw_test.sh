@@ -10,6 +10,12 @@ expect_code 0
 try draw run -o fine.svg --scale-index 0 --width 300 --no-frame
 expect_code 0
 grep -q 'width="300' fine.svg || fault "the width is not 300: $(grep -m1 '<svg' fine.svg)"
+try draw run -o narrow.svg --width 3cm
+expect_code 0
+grep -q '<linearGradient' narrow.svg || fault "no colour key"
+try draw run -o narrower.svg --width 36
+expect_code 0
+expect_error '^flowgrain: narrower.svg: no room for the colour key; a picture of this shape has it from a width of 4[0-9] points'
 done_with "draw: a scale again"
 
 try draw run -o by-clusters.svg --clusters 9 --no-frame --width 300

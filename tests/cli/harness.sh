@@ -23,6 +23,35 @@ try() {
   code=$?
 }
 
+# write_netcdf CODE ARGUMENTS...: a classic NetCDF file on standard output. CODE is Perl and
+# sets @dims, of [name, size], and @vars, of [name, [dimensions], type (5: float, 6: double),
+# [attribute, text, ...], [values]].
+write_netcdf() {
+  perl -e '
+    our (@dims, @vars);
+    eval shift; die $@ if $@;
+    sub name { my $n = shift; pack("N a*", length $n, $n) . "\0" x (-length($n) % 4) }
+    my ($head, $data, $at) = ("", "", 0);
+    for my $pass (0, 1) {
+      my $begin = $pass * $at;
+      ($head, $data) = ("CDF\1" . pack("N N N", 0, 10, scalar @dims), "");
+      $head .= name($_->[0]) . pack("N", $_->[1]) for @dims;
+      $head .= pack("N N N N", 0, 0, 11, scalar @vars);
+      for (@vars) {
+        my ($n, $d, $type, $said, $v) = @$_;
+        my @said = @$said;
+        my $bytes = pack($type == 5 ? "f>*" : "d>*", @$v);
+        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", @said ? 12 : 0, @said / 2);
+        $head .= name(shift @said) . pack("N", 2) . name(shift @said) while @said;
+        $head .= pack("N N N", $type, length $bytes, $begin + length $data);
+        $data .= $bytes;
+      }
+      $at = length $head;
+    }
+    binmode STDOUT;
+    print $head, $data;' "$@"
+}
+
 # Each check records the first fault of a case.
 fault() {
   [ -n "$complaint" ] || complaint=$*

@@ -131,6 +131,11 @@ try rival synth:vortex3 -o no-such-folder/x.geojson
 expect_code 1
 expect_one_complaint
 expect_error '^flowgrain: no-such-folder/x.geojson: .*No such file'
+printf '%s\n' x,y,u,v 0,0,1,0 40000,0,1,0 0,1,1,0 40000,1,1,0 >strip.csv
+try rival strip.csv -o x.geojson --method hedgehog
+expect_code 1
+expect_one_complaint
+expect_error '^flowgrain: strip.csv: the method hedgehog has no icon in it'
 [ -z "$(ls -A | grep -E '^x|flowgrain-')" ] || fault "left: $(ls -A)"
 done_with "rival: what is refused leaves nothing"
 finish

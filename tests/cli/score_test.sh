@@ -54,6 +54,10 @@ try score synth:abc lines.geojson --json
 expect_code 0
 expect_json out '.[0] | .critical_f1 == null and .mean > 0'
 cp lines.geojson "$(printf 'a\tb.geojson')"
+sed 's/\[0\./[7./g' hedgehog.geojson >elsewhere.geojson
+try score synth:vortex3 elsewhere.geojson
+expect_code 0
+expect_error '^flowgrain: elsewhere.geojson: all its icons lie outside the field'
 try score synth:uniform "$(printf 'a\tb.geojson')"
 expect_code 0
 grep -q 'a?b.geojson$' out || fault "$(cat out)"

@@ -5,47 +5,29 @@ source "$(dirname "$0")/harness.sh"
 need_ranks
 
 # A classic NetCDF file: u and v on three times, two levels and a grid of 33 x 17; the
-# speeds double from time to time. The last time of the file dead.nc has none.
-make_wind() {
-  perl -e '
-    my ($dead) = @ARGV;
-    my @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
-    sub name { my $n = shift; pack("N a*", length $n, $n) . "\0" x (-length($n) % 4) }
-    sub text { my ($n, $v) = @_; name($n) . pack("N", 2) . name($v) }
-    my @vars = (
-      ["time", [0], 6, "hours since 1982-07-16 00:00", [0, 6, 30]],
-      ["lev", [1], 6, "hPa", [850, 300]],
-      ["y", [2], 6, "km", [map { 10 * $_ } 0 .. 16]],
-      ["x", [3], 6, "km", [map { 10 * $_ } 0 .. 32]]);
+# speeds double from time to time; some have none, and a bare file has no x and y.
+make_wind() { # [bare] TIMES WITHOUT A SPEED
+  write_netcdf '
+    my %dead = map { $_ => 1 } @ARGV;
+    @dims = (["time", 3], ["lev", 2], ["y", 17], ["x", 33]);
+    @vars = (
+      ["time", [0], 6, [units => "hours since 1982-07-16 00:00"], [0, 6, 30]],
+      ["lev", [1], 6, [units => "hPa"], [850, 300]],
+      ["y", [2], 6, [units => "km"], [map { 10 * $_ } 0 .. 16]],
+      ["x", [3], 6, [units => "km"], [map { 10 * $_ } 0 .. 32]]);
+    splice @vars, 2 if $dead{bare};
     for my $c (0, 1) {
       my @v;
       for my $t (0 .. 2) { for my $l (0 .. 1) { for my $j (0 .. 16) { for my $i (0 .. 32) {
         my ($x, $y) = ($i / 16 - 1, $j / 16 - 0.5);
-        my $s = $dead && $t == 2 ? 0 : 2 ** $t * (1 + $l);
+        my $s = $dead{$t} ? 0 : 2 ** $t * (1 + $l);
         push @v, $s * ($c ? 0.3 + $x : 1 - 2 * $y + 0.2 * $t * $x);
       } } } }
-      push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, "m s-1", \@v];
-    }
-    my ($head, $data, $at) = ("", "", 0);
-    for my $pass (0, 1) {
-      my $begin = $pass * $at;
-      ($head, $data) = ("CDF\1" . pack("N N N", 0, 10, scalar @dims), "");
-      $head .= name($_->[0]) . pack("N", $_->[1]) for @dims;
-      $head .= pack("N N N N", 0, 0, 11, scalar @vars);
-      for (@vars) {
-        my ($n, $d, $type, $units, $v) = @$_;
-        my $bytes = pack($type == 5 ? "f>*" : "d>*", @$v);
-        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", 12, 1) . text("units", $units);
-        $head .= pack("N N N", $type, length $bytes, $begin + length $data);
-        $data .= $bytes;
-      }
-      $at = length $head;
-    }
-    binmode STDOUT;
-    print $head, $data;' "$1"
+      push @vars, [("u", "v")[$c], [0, 1, 2, 3], 5, [units => "m s-1"], \@v];
+    }' "$@"
 }
-make_wind 0 >wind.nc
-make_wind 1 >dead.nc
+make_wind >wind.nc
+make_wind 2 >dead.nc
 
 try info wind.nc
 expect_code 0
@@ -53,6 +35,27 @@ grep -q '    2: 1982-07-17 06:00' out || fault "no third time: $(cat out)"
 try info wind.nc --json
 expect_json out '.vectors[0].level_values == [{value: 850, units: "hPa", words: "850 hPa"}, {value: 300, units: "hPa", words: "300 hPa"}]'
 done_with "info tells times and levels by value"
+
+# a child process reads what looks like GRIB first
+as_child() {
+  perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04GRIB/"
+}
+make_wind 0 2 >middle.nc
+make_wind 0 1 2 >none.nc
+as_child <middle.nc >middle-child.nc
+as_child <none.nc >none-child.nc
+for file in middle middle-child; do
+  try info $file.nc --scale plain
+  expect_code 0
+  grep -q 'grid: 33 x 17' out || fault "$file: no grid: $(cat out)"
+done
+for file in none none-child; do
+  try info $file.nc --scale plain
+  expect_code 1
+  expect_error "$file.nc: .*zero everywhere"
+  expect_error '^The same holds for all of its 3 times'
+done
+done_with "info with options looks at other times where the first has no values"
 
 small=(--arrows 8 --effort 0 --nodes 65 --formats svg)
 chosen() { # PATTERN-OF-STDERR TIME LEVEL OPTIONS...: what run.json says was read
@@ -109,6 +112,30 @@ done_with "a sample of a dimension by its name"
 cp wind.nc other.nc
 try run wind.nc --vars u,v --vars-from other.nc -o parted "${small[@]}" --quiet
 expect_code 0
+resume_parted() { # CODE PATTERN OPTIONS...
+  try run wind.nc --vars u,v -o parted "${small[@]}" --resume "${@:3}"
+  expect_code "$1"
+  expect_error "$2"
+}
+cp wind.nc third.nc
+resume_parted 0 'the run is finished' --vars-from "$PWD/../${PWD##*/}/other.nc"
+resume_parted 1 'begun with --vars-from .*/other.nc; this command goes with --vars-from .*/third.nc$' --vars-from third.nc
+resume_parted 1 'begun with --vars-from .*/other.nc; this command goes without --vars-from$'
+make_wind bare >bare.nc
+meshed=(run bare.nc -o meshed "${small[@]}")
+try "${meshed[@]}" --mesh-from wind.nc --quiet
+expect_code 0
+try "${meshed[@]}" --mesh-from ./wind.nc --resume
+expect_code 0
+try "${meshed[@]}" --mesh-from third.nc --resume
+expect_code 1
+expect_error 'meshed: its run was begun with --mesh-from .*/wind.nc; this command goes with --mesh-from .*/third.nc$'
+try run bare.nc -o meshes "${small[@]}" --time 0,1 --mesh-from wind.nc --quiet
+expect_code 0
+try run bare.nc -o meshes "${small[@]}" --time 0,1 --mesh-from third.nc --resume
+expect_code 1
+expect_error 'meshes: its run was begun with --mesh-from .*/wind.nc; this command goes with --mesh-from .*/third.nc$'
+done_with "a finished run, or a series, is not taken for one of other further files"
 mv other.nc moved.nc
 try draw parted -o x.svg
 expect_code 1
@@ -201,8 +228,7 @@ expect_code 1
 expect_error 'zero everywhere'
 expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
 expect_one_complaint
-# a child process reads what looks like GRIB first, and says the same
-perl -pe "s/\\x00{3}\\x03lev\\x00/\\x00\\x00\\x00\\x04GRIB/" dead.nc >child.nc
+as_child <dead.nc >child.nc # says the same
 try run child.nc -o dead "${small[@]}" --time 2
 expect_code 1
 expect_error '^Choose another with --time or --level, as --time 0; flowgrain info lists them'
@@ -212,7 +238,7 @@ try run dead.nc -o dead "${small[@]}" --time all --quiet
 expect_code 1
 expect_error 'dead: 1 of 3 fields could not be done'
 expect_file dead/time-0001/run.json
-grep -q '<text.*>(b) 1982' dead/panels-00.svg || fault "no panels of those that are done"
+grep -q '<text.*>(b) [01][0-9]:00<' dead/panels-00.svg || fault "no panels of those that are done"
 expect_nothing_at dead/time-0002
 done_with "a time without wind does not keep the others from being drawn"
 

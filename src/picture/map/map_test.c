@@ -363,6 +363,35 @@ static void pictures_show_land(void **state)
   fg_field_destroy(field);
 }
 
+/* A disc that is too small for degrees round it has none in it. */
+static void small_discs_have_no_degrees(void **state)
+{
+  fg_context *context = *state;
+  char folder[] = "/tmp/flowgrain-map-XXXXXX", path[64];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/map.svg", folder);
+  fg_field *field = make_field(context, &south, NULL);
+  fg_icons *icons = NULL;
+  assert_int_equal(
+      fg_arrows_create(&icons, context, field, &(fg_arrows_options){.count = 2}),
+      FG_STATUS_OK);
+  for (int large = 0; large < 2; ++large) {
+    static char text[1 << 22];
+    const fg_picture_options options = {.width = large ? 300.0 : 60.0};
+    assert_int_equal(fg_picture_write(context, path, field, NULL, icons, &options),
+                     FG_STATUS_OK);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    assert_int_equal(strstr(text, "\xC2\xB0S<") != NULL, large);
+  }
+  unlink(path);
+  rmdir(folder);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
 #define TEST(name)                                                                       \
@@ -374,6 +403,7 @@ int main(void)
       TEST(no_two_labels_touch),
       TEST(a_band_round_the_globe_has_its_own_frame),
       TEST(pictures_show_land),
+      TEST(small_discs_have_no_degrees),
       TEST(fewer_labels_are_still_even),
       TEST(land_covers_textures_of_the_sea),
   };

@@ -29,8 +29,12 @@ static const double shortest_caption = 8.0;
 /* Of lengths that are sums of the same lengths, points. */
 static const double rounding = 1e-9;
 
-/* Passes in which the margins may grow until everything fits; three is usual. */
-enum { PASSES = 12 };
+/* The widths that are tried for one at which a page has its key. */
+static const double key_step = 1.05, most_times = 1e3;
+
+/* Passes in which the margins may grow until everything fits; three is usual, small pages
+ * need more. */
+enum { PASSES = 24 };
 
 double fg__page_font_size(const fg__page_plan *plan)
 {
@@ -54,16 +58,19 @@ typedef struct caption {
   double title_size, size;
 } caption;
 
-/* Titles that are too long for their lines shrink, so far as they are still read. */
-static void break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
+/* Titles that are too long for their lines shrink, so far as they are still read. Whether
+ * none does. */
+static bool break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
                           double em, double width)
 {
+  const double title_size = 1.1 * em;
   out->title_size = fg__page_fit_lines(out->line, FG__TITLE_LINES, &out->titles, ruler,
-                                       plan->title, 1.1 * em, true, width);
+                                       plan->title, title_size, true, width);
   out->size =
       fg__page_fit_lines(out->line + out->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
                          &out->count, ruler, plan->subtitle, em, false, width);
   out->count += out->titles;
+  return out->title_size == title_size && out->size == em;
 }
 
 void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
@@ -71,11 +78,14 @@ void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_pl
 {
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
-  double width = page->width - pad - start;
+  const double widest = page->width - 2.0 * pad;
   caption lines;
-  if (width < shortest_caption * em)
+  if (widest < shortest_caption * em)
     return;
-  break_caption(&lines, plan, ruler, em, width);
+  if (!break_caption(&lines, plan, ruler, em, page->width - pad - start)) {
+    start = pad;
+    break_caption(&lines, plan, ruler, em, widest);
+  }
   double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;
   for (int k = lines.count - 1; k >= 0; --k) {
     fg__page_text *added = fg__page_next_text(page, lines.line[k]);
@@ -129,8 +139,9 @@ static bool place_frame(fg__page *page, const fg__page_plan *plan,
   return true;
 }
 
-static void clear(fg__page *page)
+static void clear(fg__page *page, const fg__page_parts *parts)
 {
+  page->has_degrees = parts->axes;
   page->text_count = 0;
   page->line_count = 0;
   page->has_color_key = false;
@@ -168,13 +179,13 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
   if (plan->no_frame)
     gap[0] = gap[1] = bare_gap(plan);
   for (int pass = 0; pass < PASSES; ++pass) {
-    clear(page);
+    clear(page, parts);
     if (!place_frame(page, plan, &margins, gap, parts->caption ? 24.0 * em : 0.0))
       return false;
     fg__margins room = {0.0, 0.0, 0.0, 0.0};
     double between[2] = {0.0, 0.0};
     for (int k = 0; panel && k < plan->panels; ++k)
-      clear(&panel[k]);
+      clear(&panel[k], parts);
     fg__page_place_frames(page, panel, plan, gap);
     place_round(page, panel, &room, between, plan, parts, ruler);
     if (parts->color_key || parts->size_key)
@@ -187,7 +198,7 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
                 room.bottom <= margins.bottom + spare &&
                 between[0] <= gap[0] + rounding && between[1] <= gap[1] + rounding;
     if (fits)
-      return true;
+      return !parts->color_key || page->has_color_key;
     margins.left = fmax(margins.left, room.left + edge);
     margins.right = fmax(margins.right, room.right + edge);
     margins.top = fmax(margins.top, room.top + edge);
@@ -220,9 +231,61 @@ static bool keys_below(fg__page *page, fg__page *panel, const fg__page_plan *pla
   return below > beside;
 }
 
+/* Whether the parts leave the domain its room, the keys where they belong or, where they
+ * make a page of free height no narrower, below. */
+static bool lay_out_well(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                         fg__page_parts *parts, double least, cairo_t *ruler)
+{
+  parts->keys_below = keys_below(out, panel, plan, *parts, ruler);
+  if (lay_out(out, panel, plan, parts, ruler) && out->scale >= least)
+    return true;
+  parts->keys_below = true;
+  return lay_out(out, panel, plan, parts, ruler) && out->scale >= least;
+}
+
+/* Brings back what was left out in vain, before what did not fit was: the caption, say,
+ * of a page that is too narrow. */
+static void bring_back(fg__page *out, fg__page *panel, const fg__page_plan *plan,
+                       fg__page_parts *parts, double least, cairo_t *ruler)
+{
+  const bool wanted[] = {plan->title[0] || plan->subtitle[0], parts->axes,
+                         plan->size_key};
+  bool *const part[] = {&parts->caption, &parts->axis_labels, &parts->size_key};
+  for (int k = 0; k < 3; ++k) {
+    const fg__page_parts before = *parts;
+    if (*part[k] || !wanted[k] || plan->no_frame)
+      continue;
+    *part[k] = true;
+    if (!lay_out_well(out, panel, plan, parts, least, ruler)) {
+      *parts = before;
+      lay_out_well(out, panel, plan, parts, least, ruler);
+    }
+  }
+}
+
 void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler)
 {
   fg__page_layout_panels(out, NULL, plan, ruler);
+}
+
+double fg__page_key_width(fg__page *page, fg__page *panel, const fg__page_plan *plan)
+{
+  fg__page_plan wider = *plan;
+  cairo_t *ruler = fg__text_ruler();
+  const double width =
+      plan->width > 0.0 || plan->height > 0.0 ? plan->width : default_width;
+  double times = 1.0;
+  fg__page_layout_panels(page, panel, plan, ruler);
+  if (!plan->color_key || plan->no_frame || page->has_color_key)
+    page->width = 0.0;
+  while (page->width > 0.0 && !page->has_color_key && times < most_times) {
+    times *= key_step;
+    wider.width = times * width;
+    wider.height = times * plan->height;
+    fg__page_layout_panels(page, panel, &wider, ruler);
+  }
+  cairo_destroy(ruler);
+  return page->width;
 }
 
 void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
@@ -242,14 +305,18 @@ void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan 
                               (plan->title[0] || plan->subtitle[0]) && !plan->no_frame,
                           .sides = {true, true, true, true}};
   bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.caption,
-                               &parts.color_key, &parts.axes};
-  size_t count = sizeof dispensable / sizeof *dispensable;
+                               &parts.axes,     &parts.color_key,   &parts.axes};
+  size_t count = sizeof dispensable / sizeof *dispensable, k = 0;
   double least = least_share * bare_scale(plan);
-  for (size_t k = 0; k < count; ++k) {
-    parts.keys_below = keys_below(out, panel, plan, parts, ruler);
-    if (lay_out(out, panel, plan, &parts, ruler) && out->scale >= least)
-      return;
+  while (k < count && !lay_out_well(out, panel, plan, &parts, least, ruler)) {
     *dispensable[k] = false;
+    if (dispensable[k] == &parts.color_key) /* which may have left the axes no room */
+      parts.axes = !plan->no_frame;
+    ++k;
+  }
+  if (k < count) {
+    bring_back(out, panel, plan, &parts, least, ruler);
+    return;
   }
   fg__page_plan bare = *plan;
   if (!lay_out(out, panel, &bare, &parts, ruler)) {

@@ -14,7 +14,7 @@ typedef struct fg__page_box {
 
 enum {
   FG__TITLE_LINES = 3,
-  FG__CAPTION_LINES = FG__TITLE_LINES + 2,
+  FG__CAPTION_LINES = FG__TITLE_LINES + 3,
   FG__LABEL_LINES = 3, /* of the colour key */
   FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
   /* ticks of two axes and of the colour key, their labels, the caption, the size key */
@@ -45,6 +45,7 @@ typedef struct fg__page {
   fg__page_box frame;
   double scale; /* points a coordinate unit */
   bool framed;
+  bool has_degrees; /* or the numbers of axes, as far as its panel writes them */
   fg__page_text text[FG__PAGE_TEXTS];
   int text_count;
   fg__page_line line[FG__PAGE_LINES];
@@ -95,6 +96,11 @@ void fg__page_layout(fg__page *out, const fg__page_plan *plan, cairo_t *ruler);
 void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan *plan,
                             cairo_t *ruler);
 
+/* The width from which on, to 5 %, a page of this shape has its colour key; 0 where the
+ * page of the plan has it, or none is wanted. Sets page and panel to those of that width.
+ */
+double fg__page_key_width(fg__page *page, fg__page *panel, const fg__page_plan *plan);
+
 /* Room round the frame, points. */
 typedef struct fg__margins {
   double left, right, top, bottom;
@@ -111,6 +117,14 @@ double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, doubl
  * y. */
 double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
                                  double x, double y);
+/* Gives the text just added, which does not end at its x, another size; where it begins,
+ * or its middle, stays. */
+void fg__page_resize_text(fg__page *page, cairo_t *ruler, double size);
+/* Breaks a text at spaces into at most `limit` lines of a width; the last takes the rest.
+ * Lines that are too long end with an ellipsis. Returns whether none did. */
+bool fg__page_break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                          cairo_t *ruler, const char *text, double size, bool bold,
+                          double width);
 /* Breaks a text at spaces into at most `limit` lines of a width, in a size that is so far
  * below `size` as it must, at least two thirds of it; what is too long even then ends
  * with an ellipsis. Returns the size. */

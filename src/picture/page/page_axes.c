@@ -1,6 +1,7 @@
 #include "picture/page/page.h"
 
 #include <math.h>
+#include <string.h>
 
 /* In units of the font size: a tick's length; from its end to its label; between texts
  * side by side; from the middle of a digit to its baseline. */
@@ -34,6 +35,26 @@ static bool labels_fit(const fg__ticks *ticks, const fg__tick_axis *axis, cairo_
   return true;
 }
 
+/* Where one number is all that has room, the first and the last of finer ticks. */
+static void choose_two(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
+                       double length, double font_size, bool upright, double step)
+{
+  for (int k = 0; k < TRIES && out->count < 2; ++k) {
+    fg__ticks finer;
+    step = fg__ticks_step_below(axis, step);
+    fg__ticks_fill(&finer, axis, step);
+    if (finer.count < 2)
+      continue;
+    const int last = finer.count - 1;
+    finer.position[1] = finer.position[last];
+    memmove(finer.text[1], finer.text[last], sizeof finer.text[1]);
+    finer.count = 2;
+    if (!labels_fit(&finer, axis, ruler, length, font_size, upright))
+      return;
+    *out = finer;
+  }
+}
+
 void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright)
 {
@@ -58,6 +79,7 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *r
       break;
     *out = finer;
   }
+  choose_two(out, axis, ruler, length, font_size, upright, step);
 }
 
 static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan,

@@ -52,6 +52,23 @@ double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *tex
   return width;
 }
 
+void fg__page_resize_text(fg__page *page, cairo_t *ruler, double size)
+{
+  fg__page_text *text = &page->text[page->text_count - 1];
+  const double width = fg__text_width(ruler, text->text, size, false);
+  text->size = size;
+  if (text->upwards) {
+    text->y = 0.5 * (text->box.y0 + text->box.y1 + width);
+    text->box = (fg__page_box){text->x - FG__TEXT_ASCENT * size, text->y - width,
+                               text->x + FG__TEXT_DESCENT * size, text->y};
+    return;
+  }
+  if (text->align == FG__ALIGN_MIDDLE)
+    text->x = 0.5 * (text->box.x0 + text->box.x1 - width);
+  text->box = (fg__page_box){text->x, text->y - FG__TEXT_ASCENT * size, text->x + width,
+                             text->y + FG__TEXT_DESCENT * size};
+}
+
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1)
 {
   if (page->line_count < FG__PAGE_LINES)
@@ -74,11 +91,9 @@ static size_t line_end(const char *line, size_t length, size_t *next)
   return (size_t)(last - line);
 }
 
-/* Fills lines of a width with as many words as fit; the last, where there are `limit`,
- * takes the rest. Whether all are as narrow as they should be. */
-static bool break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
-                        cairo_t *ruler, const char *text, double size, bool bold,
-                        double width)
+bool fg__page_break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
+                          cairo_t *ruler, const char *text, double size, bool bold,
+                          double width)
 {
   bool fits = true;
   const char *rest = text + strspn(text, " ");
@@ -98,6 +113,7 @@ static bool break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
     }
     fits = fits && fg__text_width(ruler, out, size, bold) <= width;
     rest += kept;
+    fg__text_shorten(ruler, out, FG__PAGE_TEXT_BYTES, size, bold, width);
   }
   return fits;
 }
@@ -109,10 +125,9 @@ double fg__page_fit_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *coun
   static const double share[] = {1.0, 0.9, 0.8, 0.67};
   enum { SHARES = sizeof share / sizeof *share };
   int k = 0;
-  while (!break_lines(line, limit, count, ruler, text, share[k] * size, bold, width) &&
+  while (!fg__page_break_lines(line, limit, count, ruler, text, share[k] * size, bold,
+                               width) &&
          k < SHARES - 1)
     ++k;
-  for (int n = 0; n < *count; ++n)
-    fg__text_shorten(ruler, line[n], FG__PAGE_TEXT_BYTES, share[k] * size, bold, width);
   return share[k] * size;
 }

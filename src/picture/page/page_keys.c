@@ -9,8 +9,9 @@ static const double label_gap = 0.3;
 static const double half_digit = 0.36;
 static const double line_height = 1.25;
 static const double key_gap = 1.4;      /* between the frame's labels and a key */
-static const double shortest_bar = 6.0; /* two ticks and their labels */
-static const double longest_bar = 36.0; /* longer ones only draw the eye */
+static const double shortest_bar = 4.5; /* two ticks and their labels */
+static const double shortest_beside_size = 12.0; /* below the frame */
+static const double longest_bar = 36.0;          /* longer ones only draw the eye */
 static const double least_short_bar = 14.0;
 static const double short_bar_share = 0.5; /* of the frame's side */
 static const double between_keys = 3.0, frame_gap = 0.7;
@@ -105,23 +106,6 @@ static double label_room(const bar_place *at)
               2.0 * fmin(middle - at->label_low, at->label_high - middle));
 }
 
-/* Gives the text just added the label's size; its baseline stays. */
-static void set_size(fg__page *page, cairo_t *ruler, double size)
-{
-  fg__page_text *text = &page->text[page->text_count - 1];
-  const double width = fg__text_width(ruler, text->text, size, false);
-  text->size = size;
-  if (text->upwards) {
-    text->y = 0.5 * (text->box.y0 + text->box.y1 + width);
-    text->box = (fg__page_box){text->x - FG__TEXT_ASCENT * size, text->y - width,
-                               text->x + FG__TEXT_DESCENT * size, text->y};
-    return;
-  }
-  text->x = 0.5 * (text->box.x0 + text->box.x1 - width);
-  text->box = (fg__page_box){text->x, text->y - FG__TEXT_ASCENT * size, text->x + width,
-                             text->y + FG__TEXT_DESCENT * size};
-}
-
 /* An end beyond which there are speeds is a point; the bar is that much shorter. */
 static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
                        double *end)
@@ -163,7 +147,7 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
     baseline += line_height * (k ? label.size : em);
     fg__page_add_text(page, ruler, label.line[k], x0 + 0.5 * length, baseline,
                       FG__ALIGN_MIDDLE);
-    set_size(page, ruler, label.size);
+    fg__page_resize_text(page, ruler, label.size);
   }
   room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
 }
@@ -198,7 +182,7 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
   double room_for_bar = wide;
   if (has_size && parts->color_key)
     room_for_bar = wide - key.width - between_keys * em;
-  if (has_size && parts->color_key && room_for_bar < shortest_bar * em) {
+  if (has_size && parts->color_key && room_for_bar < shortest_beside_size * em) {
     has_size = false;
     room_for_bar = wide;
   }
@@ -250,7 +234,7 @@ static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   for (int k = 0; k < label.count; ++k) {
     double x = end + (k ? 0.0 : 0.35 * em) + FG__TEXT_ASCENT * em;
     fg__page_add_text_upwards(page, ruler, label.line[k], x, 0.5 * (y0 + y1));
-    set_size(page, ruler, label.size);
+    fg__page_resize_text(page, ruler, label.size);
     end = x + FG__TEXT_DESCENT * em;
   }
   return end;

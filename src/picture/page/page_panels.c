@@ -15,6 +15,8 @@ static const double empty_cost = 5.0;
  * of. */
 static const double panel_gap = 1.0, label_gap = 0.35;
 
+/* Labels shrink to this share of the texts' size before they are broken into lines. */
+static const double least_label = 0.8;
 enum { MOST_LABEL_LINES = 2 };
 
 int fg__page_frames(const fg__page_plan *plan, int k)
@@ -79,6 +81,24 @@ static fg__page_sides outer_sides(const fg__page_plan *plan, int k)
                           .top = k < plan->columns};
 }
 
+/* What the texts and ticks of a panel take up round its frame. */
+static fg__margins taken(const fg__page *panel)
+{
+  const fg__page_box *frame = &panel->frame;
+  fg__margins out = {0.0, 0.0, 0.0, 0.0};
+  for (int k = 0; k < panel->text_count + panel->line_count; ++k) {
+    const fg__page_line *line = &panel->line[k - panel->text_count];
+    const fg__page_box box = k < panel->text_count
+                                 ? panel->text[k].box
+                                 : (fg__page_box){line->x0, line->y0, line->x1, line->y1};
+    out.left = fmax(out.left, frame->x0 - box.x0);
+    out.right = fmax(out.right, box.x1 - frame->x1);
+    out.top = fmax(out.top, frame->y0 - box.y0);
+    out.bottom = fmax(out.bottom, box.y1 - frame->y1);
+  }
+  return out;
+}
+
 /* What a label must stand above: texts over the frame, not those left of it. */
 static double top_of(const fg__page *page)
 {
@@ -89,59 +109,94 @@ static double top_of(const fg__page *page)
   return top;
 }
 
-/* Returns how far above the frame it comes. */
-static double place_label(fg__page *page, double top, const char *label, cairo_t *ruler)
+/* The labels' size, and in how many lines they are: all in one where that makes them
+ * little smaller. */
+static double fit_labels(int *limit, const fg__page_plan *plan, cairo_t *ruler, double em,
+                         double width)
 {
-  const double em = page->font_size;
   char line[MOST_LABEL_LINES][FG__PAGE_TEXT_BYTES];
+  double widest = 0.0, size = em;
   int lines;
-  const double size = fg__page_fit_lines(line, MOST_LABEL_LINES, &lines, ruler, label, em,
-                                         false, page->frame.x1 - page->frame.x0);
-  double y = page->frame.y0 - top - (label_gap + FG__TEXT_DESCENT) * em;
-  for (int k = lines - 1; k >= 0; --k) {
-    fg__page_add_text(page, ruler, line[k], page->frame.x0, y, FG__ALIGN_START);
-    fg__page_text *text = &page->text[page->text_count - 1];
-    text->size = size;
-    text->box.x1 = text->x + fg__text_width(ruler, line[k], size, false);
-    text->box.y0 = y - FG__TEXT_ASCENT * size;
-    text->box.y1 = y + FG__TEXT_DESCENT * size;
-    top = page->frame.y0 - text->box.y0;
-    y -= 1.25 * size;
+  for (int k = 0; k < plan->panels; ++k)
+    widest = fmax(widest, fg__text_width(ruler, plan->panel_label[k], em, false));
+  *limit = least_label * widest <= width ? 1 : MOST_LABEL_LINES;
+  if (*limit == 1)
+    return widest > width ? em * width / widest : em;
+  for (int k = 0; k < plan->panels; ++k)
+    size = fmin(size, fg__page_fit_lines(line, *limit, &lines, ruler,
+                                         plan->panel_label[k], em, false, width));
+  return size;
+}
+
+/* Labels of panels side by side begin at one height. */
+static void place_labels(fg__page *row, int count, double top, int limit, double size,
+                         const char (*label)[FG__PAGE_TEXT_BYTES], cairo_t *ruler)
+{
+  char line[MOST_LABEL_LINES][FG__PAGE_TEXT_BYTES];
+  const double width = row->frame.x1 - row->frame.x0;
+  const double em = row->font_size, step = 1.25 * size;
+  int lines, most = 1;
+  for (int k = 0; k < count; ++k) {
+    fg__page_break_lines(line, limit, &lines, ruler, label[k], size, false, width);
+    most = lines > most ? lines : most;
   }
-  return top;
+  for (int k = 0; k < count; ++k) {
+    double y = row->frame.y0 - top - label_gap * em - FG__TEXT_DESCENT * size;
+    y -= (most - 1) * step;
+    fg__page_break_lines(line, limit, &lines, ruler, label[k], size, false, width);
+    for (int n = 0; n < lines; ++n, y += step) {
+      fg__page_add_text(&row[k], ruler, line[n], row[k].frame.x0, y, FG__ALIGN_START);
+      fg__page_resize_text(&row[k], ruler, size);
+    }
+  }
+}
+
+/* What lies round the panels of a row that begins with panel k. */
+static void place_row(fg__page *panel, int k, int limit, double size,
+                      const fg__page_plan *plan, const fg__page_parts *parts,
+                      cairo_t *ruler)
+{
+  const int left = plan->panels - k;
+  const int count = left < plan->columns ? left : plan->columns;
+  double top = 0.0;
+  for (int n = k; n < k + count; ++n) {
+    fg__margins room = {0.0, 0.0, 0.0, 0.0};
+    fg__page_parts its = *parts;
+    its.sides = outer_sides(plan, n);
+    fg__page_place_sides(&panel[n], &room, plan, &its, ruler);
+    top = fmax(top, top_of(&panel[n]));
+  }
+  place_labels(&panel[k], count, top, limit, size, &plan->panel_label[k], ruler);
 }
 
 void fg__page_place_panels(fg__page *panel, fg__margins *room, double between[2],
                            const fg__page_plan *plan, const fg__page_parts *parts,
                            cairo_t *ruler)
 {
-  fg__margins inner = {0.0, 0.0, 0.0, 0.0};
-  const int rows = fg__page_frames(plan, 1);
-  double top = 0.0;
+  const double gap = panel_gap * panel->font_size;
+  const double width = panel->frame.x1 - panel->frame.x0;
+  const int columns = plan->columns;
+  int limit;
   if (plan->no_frame)
     return;
+  const double size = fit_labels(&limit, plan, ruler, panel->font_size, width);
+  for (int k = 0; k < plan->panels; k += columns)
+    place_row(panel, k, limit, size, plan, parts, ruler);
   for (int k = 0; k < plan->panels; ++k) {
-    const int column = k % plan->columns, row = k / plan->columns;
-    fg__margins own = {0.0, 0.0, 0.0, 0.0};
-    fg__page_parts its = *parts;
-    its.sides = outer_sides(plan, k);
-    fg__page_place_sides(&panel[k], &own, plan, &its, ruler);
-    top = fmax(top, top_of(&panel[k]));
-    fg__margins *const left = column == 0 ? room : &inner;
-    fg__margins *const right = column == plan->columns - 1 ? room : &inner;
-    fg__margins *const upper = row == 0 ? room : &inner;
-    fg__margins *const lower = row == rows - 1 ? room : &inner;
-    left->left = fmax(left->left, own.left);
-    right->right = fmax(right->right, own.right);
-    upper->top = fmax(upper->top, own.top);
-    lower->bottom = fmax(lower->bottom, own.bottom);
+    const fg__margins own = taken(&panel[k]);
+    const bool has_next = k % columns != columns - 1 && k + 1 < plan->panels;
+    const bool has_below = k + columns < plan->panels;
+    if (k % columns == 0)
+      room->left = fmax(room->left, own.left);
+    if (k % columns == columns - 1)
+      room->right = fmax(room->right, own.right);
+    if (k < columns)
+      room->top = fmax(room->top, own.top);
+    if (k / columns == (plan->panels - 1) / columns)
+      room->bottom = fmax(room->bottom, own.bottom);
+    if (has_next)
+      between[0] = fmax(between[0], own.right + taken(&panel[k + 1]).left + gap);
+    if (has_below)
+      between[1] = fmax(between[1], own.bottom + taken(&panel[k + columns]).top + gap);
   }
-  for (int k = 0; k < plan->panels; ++k) {
-    fg__margins *const upper = k < plan->columns ? room : &inner;
-    upper->top =
-        fmax(upper->top, place_label(&panel[k], top, plan->panel_label[k], ruler));
-  }
-  const double gap = panel_gap * panel[0].font_size;
-  between[0] = inner.right + inner.left + gap;
-  between[1] = inner.bottom + inner.top + gap;
 }

@@ -4,40 +4,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "picture/page/page.h"
-
-static bool boxes_meet(const fg__page_box *a, const fg__page_box *b)
-{
-  return a->x0 < b->x1 && b->x0 < a->x1 && a->y0 < b->y1 && b->y0 < a->y1;
-}
-
-static fg__page_box size_key_box(const fg__page *page)
-{
-  return (fg__page_box){page->size_key[0], page->size_key[1] - 1.0,
-                        page->size_key[0] + page->size_key_length,
-                        page->size_key[1] + 1.0};
-}
-
-/* With the points at its ends. */
-static fg__page_box color_key_box(const fg__page *page)
-{
-  fg__page_box box = page->color_key;
-  if (page->color_key_upright) {
-    box.y1 += page->color_key_point[0];
-    box.y0 -= page->color_key_point[1];
-  } else {
-    box.x0 -= page->color_key_point[0];
-    box.x1 += page->color_key_point[1];
-  }
-  return box;
-}
-
-static void check_inside(const fg__page *page, const fg__page_box *box)
-{
-  const double slack = 1e-6 * (page->width + page->height);
-  assert_true(box->x0 >= -slack && box->y0 >= -slack);
-  assert_true(box->x1 <= page->width + slack && box->y1 <= page->height + slack);
-}
+#include "picture/page/page_plan_test.h"
 
 /* No two things on the page touch; all lie on it; one unit is as long along x and y. */
 static void check_page(const fg__page *page, const fg__page_plan *plan)
@@ -67,41 +34,6 @@ static void check_page(const fg__page *page, const fg__page_plan *plan)
   assert_true(page->scale > 0.0);
   assert_true(fabs(wide / x / page->scale - 1.0) < 1e-6);
   assert_true(fabs(high / y / page->scale - 1.0) < 1e-6);
-}
-
-static const char *const titles[] = {
-    "", "Wind", "Monthly mean of the sea surface wind over the oceans, from ships",
-    ("An even longer title, which says where the data come from, who measured them with "
-     "which instrument, and when, and which hence has no room on two lines of a page"),
-    "Donaudampfschifffahrtselektrizitaetenhauptbetriebswerkbauunterbeamtengesellschaft"};
-
-static fg__page_plan plan_of(double width, double height, double x, double y, int style,
-                             const char *title)
-{
-  fg__page_plan plan = {.width = width, .height = height};
-  if (style == 0) {
-    fg__axis_of_degrees(&plan.axis[0], 21.3, 21.3 + x, FG__TICKS_LONGITUDE);
-    fg__axis_of_degrees(&plan.axis[1], -0.45 * y, 0.55 * y, FG__TICKS_LATITUDE);
-  } else {
-    const char *units = style == 1 ? "m" : "";
-    double larger = fmax(x, y);
-    fg__axis_of_numbers(&plan.axis[0], 5e5, 5e5 + x, larger, "projection_x", units);
-    fg__axis_of_numbers(&plan.axis[1], 0.1 * y, 1.1 * y, larger, "y", units);
-  }
-  fg__axis_of_numbers(&plan.speed, 0.0, 13.7, 13.7, "mean speed", "m s-1");
-  if (style >= 2) { /* a given label, without units */
-    snprintf(plan.speed.label, sizeof plan.speed.label, "%s", title);
-    plan.speed.units[0] = '\0';
-  }
-  plan.color_key = plan.size_key = true;
-  plan.short_key = style == 3;
-  plan.speeds_beyond[0] = style == 1;
-  plan.speeds_beyond[1] = style > 0;
-  plan.arrow_length = 0.13 * sqrt(x * y);
-  snprintf(plan.title, sizeof plan.title, "%s", title);
-  snprintf(plan.subtitle, sizeof plan.subtitle, "%s",
-           title[0] ? "UWND, VWND \xC2\xB7 January 1996 \xC2\xB7 150 arrows" : "");
-  return plan;
 }
 
 static void nothing_collides_on_any_page(void **state)
@@ -195,6 +127,66 @@ static void a_short_key_is_in_the_middle(void **state)
         s ? key.y0 + key.y1 - f->y0 - f->y1 : key.x0 + key.x1 - f->x0 - f->x1;
     assert_true(fabs(length / side - 0.5) < 1e-6);
     assert_true(fabs(off) < 1e-6 * side);
+    free(page);
+  }
+}
+
+/* Numbers at the colour key of a page without axes and size key. */
+static int key_numbers(const fg__page *page)
+{
+  int count = 0;
+  for (int k = 0; k < page->text_count; ++k) {
+    char *end;
+    strtod(page->text[k].text, &end);
+    count += end > page->text[k].text && page->text[k].box.y0 > page->color_key.y1;
+  }
+  return count;
+}
+
+/* Below the frame it makes a page no wider; one number tells no scale. */
+static void a_narrow_page_has_a_colour_key(void **state)
+{
+  (void)state;
+  static const double shapes[][2] = {{360, 170}, {40, 40}, {30, 50}};
+  static const double fastest[] = {8.0, 0.075, 4000.0};
+  for (int s = 0; s < 3; ++s) {
+    fg__page_plan plan = plan_of(70, 0, shapes[s][0], shapes[s][1], 0, "Wind");
+    fg__axis_of_numbers(&plan.speed, 0.16 * fastest[s], fastest[s], fastest[s],
+                        "mean speed", "");
+    fg__page *page = lay_out(&plan);
+    check_page(page, &plan);
+    assert_true(page->has_color_key && !page->color_key_upright);
+    assert_true(has_text(page, "Wind")); /* leaving it out makes no room beside */
+    assert_true(key_numbers(page) >= 2);
+    assert_true(fg__page_key_width(page, NULL, &plan) == 0.0);
+    free(page);
+  }
+}
+
+static void a_page_without_key_tells_from_which_width_on_it_has_one(void **state)
+{
+  (void)state;
+  static const double sizes[][2] = {{100, 0}, {100, 90}, {0, 0}};
+  for (int s = 0; s < 3; ++s) {
+    fg__page_plan plan = plan_of(sizes[s][0], sizes[s][1], 40, 40, 0, "Wind");
+    plan.font_size = s == 2 ? 150.0 : 40.0;
+    fg__page *page = lay_out(&plan);
+    assert_false(page->has_color_key);
+    const double before = page->width;
+    const double width = fg__page_key_width(page, NULL, &plan);
+    assert_true(page->has_color_key && page->width == width && width > before);
+    plan.height *= width / before;
+    plan.width = width;
+    cairo_t *ruler = fg__text_ruler();
+    fg__page_layout(page, &plan, ruler);
+    assert_true(page->has_color_key);
+    plan.height *= 0.9;
+    plan.width *= 0.9;
+    fg__page_layout(page, &plan, ruler);
+    assert_false(page->has_color_key);
+    plan.color_key = false;
+    assert_true(fg__page_key_width(page, NULL, &plan) == 0.0);
+    cairo_destroy(ruler);
     free(page);
   }
 }
@@ -333,135 +325,13 @@ static void no_frame_is_the_domain_alone(void **state)
   free(page);
 }
 
-/* What lies on the page of a figure: its own things but the frame, the panels' frames and
- * texts. */
-static int collect_things(fg__page_box *things, const fg__page *page,
-                          const fg__page *panel, int panels)
-{
-  int count = 0;
-  for (int k = 0; k < page->text_count; ++k)
-    things[count++] = page->text[k].box;
-  if (page->has_color_key)
-    things[count++] = color_key_box(page);
-  if (page->has_size_key)
-    things[count++] = size_key_box(page);
-  for (int n = 0; n < panels; ++n) {
-    things[count++] = panel[n].frame;
-    for (int k = 0; k < panel[n].text_count; ++k)
-      things[count++] = panel[n].text[k].box;
-  }
-  return count;
-}
-
-/* No two things touch, all lie on the page, and all frames have one size. Returns how
- * many panels have a label, which is the last of their texts. */
-static int check_figure(const fg__page *page, const fg__page *panel,
-                        const fg__page_plan *plan)
-{
-  static fg__page_box things[13 * FG__PAGE_TEXTS];
-  const int count = collect_things(things, page, panel, plan->panels);
-  for (int a = 0; a < count; ++a) {
-    check_inside(page, &things[a]);
-    for (int b = 0; b < a; ++b)
-      assert_false(boxes_meet(&things[a], &things[b]));
-  }
-  int labels = 0;
-  for (int n = 0; n < plan->panels; ++n) {
-    const double x = plan->axis[0].high - plan->axis[0].low;
-    const double y = plan->axis[1].high - plan->axis[1].low;
-    const fg__page_box *frame = &panel[n].frame;
-    assert_true(page->scale > 0.0 && panel[n].scale == page->scale);
-    assert_true(fabs((frame->x1 - frame->x0) / x / page->scale - 1.0) < 1e-6);
-    assert_true(fabs((frame->y1 - frame->y0) / y / page->scale - 1.0) < 1e-6);
-    const int last = panel[n].text_count - 1;
-    labels += last >= 0 && strncmp(panel[n].text[last].text, "(", 1) == 0;
-  }
-  return labels;
-}
-
-static bool has_number_at(const fg__page *page, bool left)
-{
-  for (int k = 0; k < page->text_count; ++k)
-    if (left ? page->text[k].box.x1 < page->frame.x0
-             : page->text[k].box.y0 > page->frame.y1)
-      return true;
-  return false;
-}
-
-static void panels_lie_side_by_side_with_numbers_outside(void **state)
-{
-  (void)state;
-  static const double widths[] = {0, 40, 252, 480, 1600}, heights[] = {0, 90, 500};
-  static const double shapes[][2] = {{360, 170}, {1, 1}, {1, 12}, {30, 1}};
-  static const char labels[12][FG__PAGE_TEXT_BYTES] = {
-      "(a) 1982-01-16",
-      "(b) a level of 300 hPa and a long word to say it",
-      "(c)",
-      "(d)",
-      "(e)",
-      "(f)",
-      "(g)",
-      "(h)",
-      "(i)",
-      "(j)",
-      "(k)",
-      "(l)"};
-  fg__page *page = malloc(13 * sizeof *page);
-  assert_non_null(page);
-  fg__page *panel = page + 1;
-  cairo_t *ruler = fg__text_ruler();
-  int labelled = 0, panels = 0, keys = 0, figures = 0;
-  for (size_t w = 0; w < sizeof widths / sizeof *widths; ++w)
-    for (size_t h = 0; h < sizeof heights / sizeof *heights; ++h)
-      for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
-        for (int count = 1; count <= 12; count = 2 * count + 1) {
-          fg__page_plan plan = plan_of(widths[w], heights[h], shapes[s][0], shapes[s][1],
-                                       s == 0 ? 0 : 2, titles[w % 3]);
-          plan.panels = count;
-          plan.panel_label = labels;
-          plan.columns = count == 7 ? 3 : fg__page_choose_columns(&plan);
-          fg__page_layout_panels(page, panel, &plan, ruler);
-          labelled += check_figure(page, panel, &plan);
-          panels += count;
-          keys += page->has_color_key;
-          ++figures;
-          for (int n = 0; n < count; ++n) {
-            const bool has_axes = has_number_at(&panel[0], true);
-            assert_int_equal(has_number_at(&panel[n], true),
-                             has_axes && n % plan.columns == 0);
-          }
-        }
-  assert_true(labelled > panels / 2);
-  assert_true(keys > figures / 2);
-  cairo_destroy(ruler);
-  free(page);
-}
-
-/* Degrees and numbers below a panel stand where no other is below it. */
-static void a_last_row_that_is_not_full_leaves_no_column_without_numbers(void **state)
-{
-  (void)state;
-  static const char labels[5][FG__PAGE_TEXT_BYTES] = {"(a)", "(b)", "(c)", "(d)", "(e)"};
-  fg__page_plan plan = plan_of(480, 0, 40, 30, 0, "Wind");
-  plan.panels = 5;
-  plan.panel_label = labels;
-  plan.columns = fg__page_choose_columns(&plan);
-  assert_int_equal(plan.columns, 3);
-  fg__page *page = malloc(6 * sizeof *page);
-  assert_non_null(page);
-  cairo_t *ruler = fg__text_ruler();
-  fg__page_layout_panels(page, page + 1, &plan, ruler);
-  cairo_destroy(ruler);
-  for (int n = 0; n < 5; ++n)
-    assert_int_equal(has_number_at(&page[1 + n], false), n >= 2);
-  free(page);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(nothing_collides_on_any_page),
       cmocka_unit_test(a_usual_page_has_everything),
+      cmocka_unit_test(a_narrow_page_has_a_colour_key),
+      cmocka_unit_test(a_page_without_key_tells_from_which_width_on_it_has_one),
       cmocka_unit_test(captions_break_between_their_parts),
       cmocka_unit_test(a_short_key_is_in_the_middle),
       cmocka_unit_test(long_titles_and_labels_are_broken_or_shrink),
@@ -469,8 +339,6 @@ int main(void)
       cmocka_unit_test(ticks_mark_their_coordinates),
       cmocka_unit_test(the_reference_arrow_has_its_length),
       cmocka_unit_test(no_frame_is_the_domain_alone),
-      cmocka_unit_test(panels_lie_side_by_side_with_numbers_outside),
-      cmocka_unit_test(a_last_row_that_is_not_full_leaves_no_column_without_numbers),
   };
   return cmocka_run_group_tests_name("picture/page/page", tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -88,7 +89,9 @@ static fg_status make_map(fg__figure *figure, int k, fg_context *context,
   if (status || options->no_frame)
     return status;
   cairo_t *ruler = fg__text_ruler();
-  fg__map_scene_label(&panel->map, page, &figure->graticule, &panel->scene.arrows, ruler);
+  if (page->has_degrees)
+    fg__map_scene_label(&panel->map, page, &figure->graticule, &panel->scene.arrows,
+                        ruler);
   cairo_destroy(ruler);
   return FG_STATUS_OK;
 }
@@ -104,9 +107,12 @@ static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
   const bool masked =
       figure->plane.kind == FG__PLANE_NONE || options->no_coast || given->background;
   fg_status status = fg__scene_create(
-      &panel->scene, context, page, given->field, masked, figure->low, figure->high,
+      &panel->scene, context, page, given->field, figure->low, figure->high,
       options->tint ? fg_density_contents(given->density) : NULL,
       options->no_arrows ? NULL : given->icons, &figure->palette, range);
+  if (!status && masked)
+    status = fg__scene_mask(&panel->scene.mask, context, page, given->field, figure->low,
+                            &figure->plane.outline);
   if (!status && (options->skeletons || options->centers))
     status = fg__scene_add_skeletons(&panel->scene, context, page,
                                      fg_field_contents(given->field), figure->low,
@@ -285,6 +291,18 @@ static fg_status check_panels(fg_context *context, const char *path,
   return FG_STATUS_OK;
 }
 
+static fg_status tell_key_width(double *out, fg_context *context,
+                                const fg__figure *figure)
+{
+  const size_t panels = (size_t)figure->plan.panels;
+  fg__page *page = fg__allocate(panels + 1, sizeof *page);
+  if (!page)
+    return fg__fail_memory(context, "a page's layout", (panels + 1) * sizeof *page);
+  *out = fg__page_key_width(page, panels ? page + 1 : NULL, &figure->plan);
+  free(page);
+  return FG_STATUS_OK;
+}
+
 static fg_status write(fg_context *context, const char *path, const fg_panel *panel,
                        int count, bool several, const fg_picture_options *options)
 {
@@ -299,6 +317,8 @@ static fg_status write(fg_context *context, const char *path, const fg_panel *pa
         fg__scene_reference(&figure->reference, context, &figure->page, &figure->typical);
   if (!status)
     status = render(context, path, figure);
+  if (!status && options->key_width)
+    status = tell_key_width(options->key_width, context, figure);
   fg__figure_destroy(figure);
   return status;
 }

@@ -136,15 +136,24 @@ static bool sample_valid(const fg_field *field, int i, int j)
   return fg__field_sample_is_valid(field, i == size[0] ? 0 : i, j == size[1] ? 0 : j);
 }
 
-static bool cell_masked(const fg_field *field, int i, int j)
+/* Whether samples at a cell's corners are missing; of a cell that the outline of a map
+ * cuts, those that are on the map. */
+static bool cell_masked(const fg_field *field, const fg__polygons *outline, int i, int j)
 {
-  return !(sample_valid(field, i, j) && sample_valid(field, i + 1, j) &&
-           sample_valid(field, i, j + 1) && sample_valid(field, i + 1, j + 1));
+  const fg_field_arrays *grid = fg_field_contents(field);
+  int valid = 0, beyond = 0;
+  for (int k = 0; k < 4; ++k)
+    valid += sample_valid(field, i + k % 2, j + k / 2);
+  for (int k = 0; k < 4 && outline && outline->count && valid > 0 && valid < 4; ++k)
+    beyond += !sample_valid(field, i + k % 2, j + k / 2) &&
+              !fg__polygon_contains(outline, 0, grid->axis[0][i + k % 2],
+                                    grid->axis[1][j + k / 2]);
+  return valid + beyond < 4;
 }
 
 /* In the field's coordinates. */
 static fg_status make_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                           const fg_field *field)
+                           const fg_field *field, const fg__polygons *outline)
 {
   fg_status status = FG_STATUS_OK;
   const fg_field_arrays *grid = fg_field_contents(field);
@@ -164,7 +173,7 @@ static fg_status make_mask(fg__polygons *out, fg_context *context, const fg__pag
   unsigned char *next = mask;
   for (int j = 0; j < axis[1].count; ++j)
     for (int i = 0; i < axis[0].count; ++i)
-      *next++ = cell_masked(field, axis[0].cell[i], axis[1].cell[j]);
+      *next++ = cell_masked(field, outline, axis[0].cell[i], axis[1].cell[j]);
   const int size[2] = {axis[0].count, axis[1].count};
   const double *const edges[2] = {axis[0].edge, axis[1].edge};
   status = fg__contour_cells(out, context, mask, size, edges);
@@ -176,10 +185,11 @@ cleanup:
 }
 
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                         const fg_field *field, const double low[2])
+                         const fg_field *field, const double low[2],
+                         const fg__polygons *outline)
 {
   const placement p = {{low[0], low[1]}, page->scale, &page->frame};
-  fg_status status = make_mask(out, context, page, field);
+  fg_status status = make_mask(out, context, page, field, outline);
   if (status)
     return status;
   place_all(&p, out);
@@ -395,7 +405,7 @@ fg_status fg__scene_reference(fg__polygons *out, fg_context *context,
 }
 
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field *field, bool masked, const double low[2],
+                           const fg_field *field, const double low[2],
                            const double high[2], const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2])
@@ -404,9 +414,7 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
   *out = (fg__scene){.arrow_color = NULL};
   const placement p = {{low[0], low[1]}, page->scale, &page->frame};
   fg_status status = FG_STATUS_OK;
-  if (masked)
-    status = fg__scene_mask(&out->mask, context, page, field, low);
-  if (!status && density)
+  if (density)
     status = fg__contour_positive(&out->tint, context, density);
   place_all(&p, &out->tint);
   if (!status && icons)

@@ -48,15 +48,17 @@ fg_status fg__scene_reference(fg__polygons *out, fg_context *context,
                               const fg__page *page, const fg__typical_icon *typical);
 
 /* The outlines of what is masked, smoothed, on the page: of it the frame, whose lower
- * left corner is `low` in the field's coordinates, and the scale are read. MEMORY. */
+ * left corner is `low` in the field's coordinates, and the scale are read. outline: of a
+ * map, beyond which nothing counts as missing; NULL or empty: none. MEMORY. */
 fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page *page,
-                         const fg_field *field, const double low[2]);
+                         const fg_field *field, const double low[2],
+                         const fg__polygons *outline);
 
-/* Makes the polygons, but for spines and centres. masked: the mask, too. low, high: what
+/* Makes the polygons, but for the mask, spines and centres. low, high: what
  * the frame shows, in the field's coordinates. density: NULL for no tint; icons: NULL for
  * no arrows. range: speeds at the palette's ends. MEMORY. */
 fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *page,
-                           const fg_field *field, bool masked, const double low[2],
+                           const fg_field *field, const double low[2],
                            const double high[2], const fg_density_arrays *density,
                            const fg_icons *icons, const fg__palette *palette,
                            const double range[2]);

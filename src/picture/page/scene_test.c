@@ -130,7 +130,7 @@ static void the_mask_of_a_small_part_is_fine(void **state)
   fg__page page = {.scale = 2.0};
   page.frame.x1 = page.scale * (high[0] - low[0]);
   page.frame.y1 = page.scale * (high[1] - low[1]);
-  assert_int_equal(fg__scene_mask(&mask, context, &page, field, low), FG_STATUS_OK);
+  assert_int_equal(fg__scene_mask(&mask, context, &page, field, low, NULL), FG_STATUS_OK);
   for (double y = low[1]; y < high[1]; y += 0.37)
     for (double x = low[0]; x < high[0]; x += 0.37)
       if (fabs(from_rim(x, y) + 0.7) > 1.5)
@@ -138,6 +138,45 @@ static void the_mask_of_a_small_part_is_fine(void **state)
                                    page.frame.y1 - page.scale * (y - low[1])),
                          from_rim(x, y) > 0);
   fg__polygons_clear(&mask);
+  fg_field_destroy(field);
+  fg_context_destroy(context);
+}
+
+/* The disc is a map's: what is beyond its outline is not missing on it. */
+static void cells_at_an_outline_are_not_masked(void **state)
+{
+  (void)state;
+  enum { CORNERS = 180, EVERY = 90 };
+  double corner[CORNERS][2];
+  size_t start[] = {0, CORNERS};
+  const fg__polygons outline = {
+      .point = corner, .point_count = CORNERS, .start = start, .count = 1};
+  for (int n = 0; n < CORNERS; n++) {
+    const double angle = n * acos(-1.0) / EVERY;
+    corner[n][0] = DISC[0] + DISC[2] * cos(angle);
+    corner[n][1] = DISC[1] + DISC[2] * sin(angle);
+  }
+  fg_context *context;
+  assert_int_equal(fg_context_create(&context), FG_STATUS_OK);
+  fg_field *field = disc_of(context);
+  double low[2], high[2];
+  fg__scene_shown(low, high, field);
+  fg__page page = {.scale = 2.0};
+  page.frame.y1 = page.scale * (high[1] - low[1]);
+  for (int mapped = 0; mapped < 2; mapped++) {
+    fg__polygons mask = {0};
+    int masked = 0;
+    assert_int_equal(
+        fg__scene_mask(&mask, context, &page, field, low, mapped ? &outline : NULL),
+        FG_STATUS_OK);
+    for (double y = low[1]; y < high[1]; y += 0.37)
+      for (double x = low[0]; x < high[0]; x += 0.37)
+        masked +=
+            from_rim(x, y) < -0.3 && is_masked(&mask, page.scale * (x - low[0]),
+                                               page.frame.y1 - page.scale * (y - low[1]));
+    assert_int_equal(masked > 0, !mapped);
+    fg__polygons_clear(&mask);
+  }
   fg_field_destroy(field);
   fg_context_destroy(context);
 }
@@ -174,6 +213,7 @@ int main(void)
       cmocka_unit_test(nearly_all_is_shown_as_all),
       cmocka_unit_test(a_side_with_a_period_stays_whole),
       cmocka_unit_test(the_mask_of_a_small_part_is_fine),
+      cmocka_unit_test(cells_at_an_outline_are_not_masked),
       cmocka_unit_test(a_background_of_a_small_part_is_coarser),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -45,7 +45,7 @@ static fg_status find_mask(fg__polygons *out, fg_context *context, const fg_fiel
   const double scale = size[0] / (high[0] - low[0]);
   const double tall = scale * (high[1] - low[1]);
   const fg__page page = {.scale = scale, .frame = {0.0, 0.0, size[0], tall}};
-  fg_status status = fg__scene_mask(out, context, &page, field, low);
+  fg_status status = fg__scene_mask(out, context, &page, field, low, NULL);
   for (size_t n = 0; !status && n < out->point_count; ++n)
     out->point[n][1] *= size[1] / tall;
   return status;

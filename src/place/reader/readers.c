@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Slower than this share of the greatest speed a cell has no direction to be read. */
-static const double STILL = 1e-3;
-
 /* A subdomain smaller than this many lambda squared (cubed) gets no icon, and does not
  * count, unless it is the largest. */
 static const double SMALLEST_PART_2D = 0.25;
@@ -50,7 +47,7 @@ static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain
         fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
         double speed = fg__place_speed(domain, center);
         const fg__place_subdomain *subdomain = fg__place_subdomain_at(domain, center);
-        if (!(speed > STILL * domain->greatest) || !subdomain ||
+        if (!fg__place_moves(domain, speed) || !subdomain ||
             !fg__place_direction(domain, center, direction))
           continue;
         for (int k = 0; k < raster->dimension; ++k)

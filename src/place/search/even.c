@@ -9,12 +9,16 @@
 
 enum { LLOYD_STEPS = 12 };
 
+/* Farther than so many lambda from the lines that are there all is the same. */
+static const double FAR = 2.0;
+
 typedef struct points {
   const fg__place_raster *raster;
   float (*place)[3]; /* a seed, in cells */
   double (*sum)[4];  /* a seed: of its cells' places by weight, and the weight */
-  float *square;     /* a cell: distance to the nearest seed */
-  int *owner;        /* a cell: that seed */
+  float *beside;     /* a cell: square of the distance to the lines that are there */
+  float *square;     /* a cell: that to the nearest of these and of the seeds */
+  int *owner;        /* a cell: that seed; -1: none */
   int count;
 } points;
 
@@ -26,22 +30,24 @@ static void cell_place(const fg__place_raster *raster, size_t cell, float place[
   }
 }
 
-/* The cells within `within` cells of a seed: from low to below high. */
-static void box_round(const points *all, int seed, float within, int low[3], int high[3])
+/* The cells within `within` cells of a place: from low to below high. */
+static void box_round(const points *all, const float at[3], float within, int low[3],
+                      int high[3])
 {
   for (int k = 0; k < 3; ++k) {
-    float first = all->place[seed][k] - within, last = all->place[seed][k] + within;
+    float first = at[k] - within, last = at[k] + within;
     int cells = all->raster->cells[k];
     low[k] = first > 0.0F ? (int)first : 0;
     high[k] = last < (float)cells - 1.0F ? (int)last + 1 : cells;
   }
 }
 
-/* Lets a seed own the cells of a box that it is nearest to. */
-static void claim(points *all, int seed, const int low[3], const int high[3])
+/* Lets a seed (-1: a line that is there) at a place own the cells of a box that it is
+ * nearest to. */
+static void claim(points *all, int seed, const float at[3], const int low[3],
+                  const int high[3])
 {
   const fg__place_raster *raster = all->raster;
-  const float *at = all->place[seed];
   for (int z = low[2]; z < high[2]; ++z)
     for (int y = low[1]; y < high[1]; ++y) {
       size_t row =
@@ -66,15 +72,34 @@ static float far_away(const fg__place_raster *raster)
   return 4.0F * sum;
 }
 
+/* Starts over without seeds. */
 static void forget(points *all)
 {
-  for (size_t n = 0; n < all->raster->count; ++n) {
-    all->square[n] = far_away(all->raster);
+  memcpy(all->square, all->beside, all->raster->count * sizeof *all->square);
+  for (size_t n = 0; n < all->raster->count; ++n)
     all->owner[n] = -1;
-  }
 }
 
-/* The first seed is the cell that counts most, the first of such. */
+static void claim_beside_lines(points *all, const fg__place_search *search)
+{
+  const fg__place_raster *raster = all->raster;
+  for (size_t n = 0; n < raster->count; ++n)
+    all->square[n] = far_away(raster);
+  for (int k = 0; k < search->count; ++k) {
+    const fg__place_line *line = &search->icon[k]->line;
+    for (int n = 0; n < line->count; ++n) {
+      float at[3] = {0};
+      int low[3], high[3];
+      for (int m = 0; m < raster->dimension; ++m)
+        at[m] = line->position[m][n] / raster->cell - 0.5F;
+      box_round(all, at, (float)FAR / raster->cell, low, high);
+      claim(all, -1, at, low, high);
+    }
+  }
+  memcpy(all->beside, all->square, raster->count * sizeof *all->square);
+}
+
+/* Without lines the first seed is the cell that counts most, the first of such. */
 static fg_status choose_farthest(points *all, fg_context *context)
 {
   const fg__place_raster *raster = all->raster;
@@ -87,8 +112,8 @@ static fg_status choose_farthest(points *all, fg_context *context)
     int low[3], high[3];
     fg__place_peaks_top(&best, &peaks);
     cell_place(raster, best, all->place[seed]);
-    box_round(all, seed, sqrtf(all->square[best]), low, high);
-    claim(all, seed, low, high);
+    box_round(all, all->place[seed], sqrtf(all->square[best]), low, high);
+    claim(all, seed, all->place[seed], low, high);
     fg__place_peaks_renew(&peaks, low, high);
   }
   fg__place_peaks_clear(&peaks);
@@ -131,8 +156,8 @@ static fg_status even_out(points *all, fg_context *context)
     forget(all);
     for (int n = 0; n < all->count; ++n) {
       int low[3], high[3];
-      box_round(all, n, within, low, high);
-      claim(all, n, low, high);
+      box_round(all, all->place[n], within, low, high);
+      claim(all, n, all->place[n], low, high);
     }
     status = fg__check_stop(context);
   }
@@ -156,25 +181,31 @@ static fg_status add_icons(fg__place_search *search, const points *all)
   return status;
 }
 
-fg_status fg__place_start_even(fg__place_search *search)
+fg_status fg__place_fill_evenly(fg__place_search *search, int count)
 {
   const fg__place_raster *raster = &search->raster;
-  points all = {.raster = raster, .count = search->scale.count};
+  points all = {.raster = raster, .count = count - search->count};
+  if (all.count <= 0)
+    return FG_STATUS_OK;
   all.place = fg__allocate((size_t)all.count, sizeof *all.place);
   all.sum = fg__allocate((size_t)all.count, sizeof *all.sum);
-  all.square = fg__allocate(raster->count, sizeof *all.square);
+  all.beside = fg__allocate(raster->count, 2 * sizeof *all.beside);
   all.owner = fg__allocate(raster->count, sizeof *all.owner);
   fg_status status = FG_STATUS_OK;
-  if (!all.place || !all.sum || !all.square || !all.owner)
-    status = fg__fail_memory(search->context, "even seeds",
-                             raster->count * (sizeof *all.square + sizeof *all.owner));
-  if (status == FG_STATUS_OK)
+  if (!all.place || !all.sum || !all.beside || !all.owner)
+    status =
+        fg__fail_memory(search->context, "even seeds",
+                        raster->count * (2 * sizeof *all.beside + sizeof *all.owner));
+  if (status == FG_STATUS_OK) {
+    all.square = all.beside + raster->count;
+    claim_beside_lines(&all, search);
     status = even_out(&all, search->context);
+  }
   if (status == FG_STATUS_OK)
     status = add_icons(search, &all);
   free(all.place);
   free(all.sum);
-  free(all.square);
+  free(all.beside);
   free(all.owner);
   return status;
 }

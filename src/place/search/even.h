@@ -4,10 +4,10 @@
 
 #include "place/search/search.h"
 
-/* Adds icons at evenly distributed points of the domain, as many as the scale has where
- * lines can be: each the point farthest from those before, then moved to the centroids of
- * their Voronoi regions (Lloyd, IEEE Transactions on Information Theory 28, 1982).
- * MEMORY, STOPPED. */
-fg_status fg__place_start_even(fg__place_search *search);
+/* Adds icons at evenly distributed points of the domain, where lines can be, for `count`
+ * together with those that are there: each the point farthest from all others, then moved
+ * to the centroids of their Voronoi regions (Lloyd, IEEE Transactions on Information
+ * Theory 28, 1982). MEMORY, STOPPED. */
+fg_status fg__place_fill_evenly(fg__place_search *search, int count);
 
 #endif

@@ -15,7 +15,7 @@ static void set(setting *s, fg_context *context, const sampling *box,
   assert_int_equal(fg__place_domain_create(&s->domain, context, s->field), FG_STATUS_OK);
   assert_int_equal(fg__place_search_create(&s->search, context, &s->domain, count, true),
                    FG_STATUS_OK);
-  assert_int_equal(fg__place_start_even(&s->search), FG_STATUS_OK);
+  assert_int_equal(fg__place_fill_evenly(&s->search, count), FG_STATUS_OK);
 }
 
 static void clear(setting *s)
@@ -76,6 +76,30 @@ static void seeds_lie_in_the_domain(void **state)
   clear(&s);
 }
 
+/* Beside icons of the left half all new ones lie in the right one, as far from the icons
+ * as from each other. */
+static void gaps_are_filled_evenly(void **state)
+{
+  setting s;
+  double least, most;
+  set(&s, *state, &PLAIN, slant, 60);
+  const double middle = 0.5 * (s.domain.low[0] + s.domain.high[0]);
+  for (int n = s.search.count - 1; n >= 0; --n)
+    if (s.search.icon[n]->seed.position[0] > middle)
+      assert_int_equal(fg__place_remove(&s.search, n), FG_STATUS_OK);
+  const int there = s.search.count;
+  assert_true(there > 20 && there < 40);
+  assert_int_equal(fg__place_fill_evenly(&s.search, there), FG_STATUS_OK);
+  assert_int_equal(s.search.count, there);
+  assert_int_equal(fg__place_fill_evenly(&s.search, 60), FG_STATUS_OK);
+  assert_int_equal(s.search.count, 60);
+  for (int n = there; n < 60; ++n)
+    assert_true(s.search.icon[n]->seed.position[0] > middle);
+  measure(&s.search, &least, &most);
+  assert_true(least > 0.65 && most < 1.35);
+  clear(&s);
+}
+
 static void there_is_one_even_start(void **state)
 {
   setting a, b;
@@ -94,6 +118,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(seeds_are_evenly_apart),
       CASE(seeds_lie_in_the_domain),
+      CASE(gaps_are_filled_evenly),
       CASE(there_is_one_even_start),
   };
   return cmocka_run_group_tests_name("place/search/search/even", tests, NULL, NULL);

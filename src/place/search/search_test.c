@@ -23,7 +23,7 @@ static void set_even(setting *s, fg_context *context, const sampling *box,
                      velocity_of velocity, int count, bool free)
 {
   set(s, context, box, velocity, count, free);
-  assert_int_equal(fg__place_start_even(&s->search), FG_STATUS_OK);
+  assert_int_equal(fg__place_fill_evenly(&s->search, count), FG_STATUS_OK);
   assert_int_equal(fg__place_complete(&s->search), FG_STATUS_OK);
   assert_int_equal(s->search.count, count);
 }

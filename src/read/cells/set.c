@@ -170,10 +170,14 @@ static void drop_lower(fg__cell_set *set)
 
 fg_status fg__cell_set_locate(fg__cell_set *set)
 {
-  if (set->count == 0)
-    return fg__fail(set->context, FG_STATUS_UNSUPPORTED,
-                    "%s: none of its %zu cells has an area or a volume", set->path,
-                    set->numbers);
+  if (set->count == 0) {
+    fg__fail(set->context, FG_STATUS_UNSUPPORTED,
+             "%s: none of its %zu cells has an area or a volume", set->path,
+             set->numbers);
+    fg__hint(set->context, "points alone are read from tables: save them as .csv, by "
+                           "ParaView's Save Data");
+    return FG_STATUS_UNSUPPORTED;
+  }
   drop_lower(set);
   fg_status status = place_middles(set);
   if (status == FG_STATUS_OK)

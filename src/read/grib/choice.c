@@ -30,8 +30,25 @@ static void hint_at_pairs(const fg__grib_file *file)
   fg__grib_pairs_clear(&all);
 }
 
+/* ": t, z", each name once. */
+static void list_kinds(const fg__grib_file *file, char *out, size_t size)
+{
+  size_t used = 0;
+  out[0] = '\0';
+  for (size_t i = 0; i < file->kinds; ++i) {
+    const char *name = file->kind[i].name;
+    size_t before = 0;
+    while (before < i && strcmp(file->kind[before].name, name) != 0)
+      ++before;
+    if (before == i && used + strlen(name) + 3 < size)
+      used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", name);
+  }
+}
+
 static fg_status fail_none(const fg__grib_file *file, const char *vars)
 {
+  char names[512];
+  list_kinds(file, names, sizeof names);
   if (vars)
     fg__fail(file->context, FG_STATUS_ARGUMENT,
              "%s: has no fields '%s' at a time and level that both have", file->path[0],
@@ -39,13 +56,13 @@ static fg_status fail_none(const fg__grib_file *file, const char *vars)
   else if (file->without_grid > 0)
     fg__fail(
         file->context, FG_STATUS_UNSUPPORTED,
-        "%s: no vectors found among its %zu kinds of fields; %zu messages more do not "
+        "%s: no vectors found among its %zu kinds of fields%s; %zu messages more do not "
         "say their grids",
-        file->path[0], file->kinds, file->without_grid);
+        file->path[0], file->kinds, names, file->without_grid);
   else
     fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-             "%s: no vectors found among its %zu kind%s of fields", file->path[0],
-             file->kinds, file->kinds == 1 ? "" : "s");
+             "%s: no vectors found among its %zu kind%s of fields%s", file->path[0],
+             file->kinds, file->kinds == 1 ? "" : "s", names);
   if (vars)
     hint_at_pairs(file);
   else
@@ -86,11 +103,10 @@ static fg_status find_named(fg__grib_pairs *out, const fg__grib_file *file,
   return fg__grib_pairs_named(out, file, u, v);
 }
 
-/* Velocities come first; what else there is counts where there is none. */
+/* Others than those of the first rank count where there is none of these. */
 static void drop_others(fg__grib_pairs *pairs)
 {
-  while (pairs->count > 1 && pairs->pair[0].is_velocity &&
-         !pairs->pair[pairs->count - 1].is_velocity)
+  while (pairs->count > 1 && pairs->pair[0].rank < pairs->pair[pairs->count - 1].rank)
     fg__grib_pair_clear(&pairs->pair[--pairs->count]);
 }
 

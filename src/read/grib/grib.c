@@ -118,8 +118,10 @@ static fg_status read_values(float *velocity[2], const fg__grib_file *file,
     status = use_mask(velocity[0], velocity[1], file, field, grid);
   if (status == FG_STATUS_OK)
     status = fg__grib_values(velocity[1], file, place->component[1], grid);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK) {
+    fg__polar_turn_all(velocity, grid->points, &pair->polar);
     fg__grib_turn(velocity[0], velocity[1], grid);
+  }
   return status;
 }
 
@@ -167,7 +169,7 @@ static void write_captions(captions *out, fg_field_arrays *arrays,
   arrays->velocity_units = out->units;
   arrays->time = out->time;
   arrays->level = out->level[0] ? out->level : NULL;
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < 2 && pair->polar.sense == 0; ++k)
     arrays->velocity_name[k] = pair->name[k];
 }
 
@@ -199,6 +201,15 @@ static fg_status make_field(fg_field **out, const fg__grib_file *file,
   return fg__field_of_rows(out, file->context, &arrays, velocity, &slab);
 }
 
+/* Directions are from north whatever components are along. */
+static fg_status find_grid(fg__grib_grid *out, const fg__grib_file *file,
+                           const fg__grib_pair *pair, const fg__grib_place *place)
+{
+  const fg_status status = fg__grib_grid_find(out, file, place->component[0]);
+  out->relative = out->relative && pair->polar.sense == 0;
+  return status;
+}
+
 typedef struct opened {
   fg__grib_file file;
   fg__grib_pairs pairs;
@@ -218,7 +229,7 @@ static fg_status open_pair(opened *o, fg_context *context, const fg__source *sou
   if (status == FG_STATUS_OK)
     status = fg__grib_find_place(&o->place, &o->file, o->pairs.pair, options);
   if (status == FG_STATUS_OK)
-    status = fg__grib_grid_find(&o->grid, &o->file, o->place->component[0]);
+    status = find_grid(&o->grid, &o->file, o->pairs.pair, o->place);
   if (status == FG_STATUS_OK)
     status = check_grid(&o->file, o->pairs.pair, &o->grid, options->scale);
   return status;
@@ -386,8 +397,8 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
 {
   fg__grib_grid grid;
   axis_values values[2] = {{NULL, NULL}, {NULL, NULL}};
-  char units[FG__GRIB_TEXT];
-  fg_status status = fg__grib_grid_find(&grid, file, pair->place[0].component[0]);
+  char units[FG__GRIB_TEXT], polar[FG__GRIB_TEXT], frame[FG__GRIB_TEXT + 32];
+  fg_status status = find_grid(&grid, file, pair, &pair->place[0]);
   fg__grib_units(pair->kind[0]->units, units, sizeof units);
   fg_inventory_vector vector = {.components = 2,
                                 .name = {pair->name[0], pair->name[1]},
@@ -398,6 +409,9 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
                                 .times = (int)pair->times,
                                 .levels = (int)pair->levels,
                                 .scale = scale_of(&grid)};
+  fg__polar_words(polar, sizeof polar, &pair->polar, "parameters of a wind");
+  snprintf(frame, sizeof frame, "east and north (%s)", polar);
+  vector.frame = pair->polar.sense != 0 ? frame : NULL;
   if (status == FG_STATUS_OK)
     status = list_values(values, file->context, pair);
   vector.time_value = values[0].value;

@@ -4,6 +4,7 @@
 #define FG__GRIB_H
 
 #include "read/format.h"
+#include "read/polar.h"
 #include "read/signature.h"
 #include "sphere/sphere.h"
 
@@ -98,10 +99,18 @@ typedef struct fg__grib_place {
   const fg__grib_field *component[2];
 } fg__grib_place;
 
+/* Which vectors are meant where a file has several: those of the first rank. */
+typedef enum fg__grib_rank {
+  FG__GRIB_VELOCITY,
+  FG__GRIB_POLAR, /* a speed and a direction */
+  FG__GRIB_OTHER
+} fg__grib_rank;
+
 typedef struct fg__grib_pair {
   const fg__grib_kind *kind[2];
   char name[2][FG__GRIB_TEXT]; /* with what tells it from others: "u@hybrid" */
-  bool is_velocity;
+  fg__grib_rank rank;
+  fg__polar polar;       /* a wind's speed and direction */
   fg__grib_place *place; /* ascending by time, then level */
   size_t places;
   fg__grib_date *time; /* ascending */
@@ -114,8 +123,8 @@ typedef struct fg__grib_pairs {
   size_t count, capacity;
 } fg__grib_pairs;
 
-/* Matches components; velocities come first, then in the file's order. To be cleared even
- * after a failure. MEMORY. */
+/* Matches components, by rank, then in the file's order. To be cleared even after a
+ * failure. MEMORY. */
 fg_status fg__grib_pairs_find(fg__grib_pairs *out, const fg__grib_file *file);
 
 /* The pairs of components of these names: "u", "u10", "u@hybrid"; likewise. */
@@ -132,6 +141,9 @@ bool fg__grib_is_named(const fg__grib_kind *kind, const char *name);
 /* Whether two kinds are the components of one vector, by ecCodes' titles of them: "U
  * component of wind", "V component of wind"; or by their numbers. */
 bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v);
+
+/* Whether they are the speed and the direction of a wind. */
+bool fg__grib_match_polar(const fg__grib_kind *speed, const fg__grib_kind *direction);
 
 /* Words of a time and a level, and of a pair together. */
 void fg__grib_time_words(const fg__grib_pair *pair, size_t time, char *out, size_t size);

@@ -301,6 +301,17 @@ static void times_and_levels(void **state)
   fg_field_destroy(field);
 }
 
+static void fields_without_a_pair_are_named(void **state)
+{
+  grib_file *f = *state;
+  static const char w[] = "parameterCategory=2,parameterNumber=8,level=500";
+  for (int k = 0; k < 2; ++k)
+    grib_add(f, "regular_ll_pl_grib2", k ? "dataTime=600" : "", 0, "bitsPerValue=16",
+             WIND_U, w, NULL);
+  grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED,
+              "no vectors found among its 2 kinds of fields: u, w");
+}
+
 /* Both components in one message; and without its last bytes, or those between. */
 static void a_message_of_two_fields(void **state)
 {
@@ -371,13 +382,10 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, grib_set_up, grib_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(a_longitude_latitude_grid),
-      CASE(a_gaussian_grid),
-      CASE(grids_on_the_sphere),
-      CASE(projected_grids),
-      CASE(times_and_levels),
-      CASE(a_message_of_two_fields),
-      CASE(missing_values),
+      CASE(a_longitude_latitude_grid), CASE(a_gaussian_grid),
+      CASE(grids_on_the_sphere),       CASE(projected_grids),
+      CASE(times_and_levels),          CASE(fields_without_a_pair_are_named),
+      CASE(a_message_of_two_fields),   CASE(missing_values),
   };
   return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);
 }

@@ -356,8 +356,12 @@ static bool find_layout(fg__grib_grid *grid)
       grid->rotated = known[i].rotated;
       return true;
     }
-  fg__set_unusable(grid->unusable, "its grid is of a type that is not known here, '%s'",
-                   grid->type);
+  if (strcmp(grid->type, "sh") == 0)
+    fg__set_unusable(grid->unusable, "it has spherical harmonics ('sh') and no grid, as "
+                                     "cdo sp2gp would make of them");
+  else
+    fg__set_unusable(grid->unusable, "its grid is of a type that is not known here, '%s'",
+                     grid->type);
   return false;
 }
 

@@ -1,5 +1,6 @@
 /* Vectors: components of the same level type, member, step type and grid, at all times
  * and levels that both have. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "read/grib/grib.h"
 
@@ -43,8 +44,13 @@ bool fg__grib_is_named(const fg__grib_kind *kind, const char *name)
 static bool stand_together(const fg__grib_kind *u, const fg__grib_kind *v)
 {
   return u != v && u->grid == v->grid && u->member == v->member &&
-         strcmp(u->units, v->units) == 0 && strcmp(u->level_type, v->level_type) == 0 &&
+         strcmp(u->level_type, v->level_type) == 0 &&
          strcmp(u->step_type, v->step_type) == 0;
+}
+
+static bool same_units(const fg__grib_kind *u, const fg__grib_kind *v)
+{
+  return strcmp(u->units, v->units) == 0;
 }
 
 static int compare_dates(const fg__grib_date *a, const fg__grib_date *b)
@@ -146,11 +152,14 @@ void fg__grib_pair_clear(fg__grib_pair *pair)
 
 /* Adds the pair of two kinds that have a time and level in common. */
 static fg_status add_pair(fg__grib_pairs *pairs, const fg__grib_file *file,
-                          const fg__grib_kind *u, const fg__grib_kind *v)
+                          const fg__grib_kind *u, const fg__grib_kind *v,
+                          fg__grib_rank rank)
 {
-  fg__grib_pair pair = {.kind = {u, v}, .is_velocity = strcmp(u->units, "m s**-1") == 0};
+  fg__grib_pair pair = {.kind = {u, v}, .rank = rank};
   fg__grib_place *other = NULL;
   size_t us = 0, vs = 0;
+  if (rank == FG__GRIB_POLAR) /* WMO's table: degrees true, from which it blows */
+    pair.polar = (fg__polar){.sense = -1, .unit = FG__RADIANS};
   void *all = pairs->pair;
   fg_status status = list_places(&pair.place, &us, file, u, 0);
   if (status == FG_STATUS_OK)
@@ -207,28 +216,36 @@ static void name_component(fg__grib_pair *pair, int k, const fg__grib_pairs *pai
     add_word(pair->name[k], number);
 }
 
-static fg_status add_all(fg__grib_pairs *out, const fg__grib_file *file, bool velocity)
+/* The rank of two kinds as the components of one vector; false: they are none. */
+static bool rank_of(fg__grib_rank *out, const fg__grib_kind *u, const fg__grib_kind *v)
 {
-  fg_status status = FG_STATUS_OK;
-  for (size_t i = 0; i < file->kinds && status == FG_STATUS_OK; ++i)
-    for (size_t j = 0; j < file->kinds && status == FG_STATUS_OK; ++j) {
-      const fg__grib_kind *u = &file->kind[i], *v = &file->kind[j];
-      if ((strcmp(u->units, "m s**-1") == 0) == velocity && stand_together(u, v) &&
-          fg__grib_match(u, v))
-        status = add_pair(out, file, u, v);
-    }
-  return status;
+  *out = fg__grib_match_polar(u, v)         ? FG__GRIB_POLAR
+         : strcmp(u->units, "m s**-1") == 0 ? FG__GRIB_VELOCITY
+                                            : FG__GRIB_OTHER;
+  return stand_together(u, v) && (*out == FG__GRIB_POLAR || same_units(u, v));
+}
+
+static void name_all(fg__grib_pairs *pairs)
+{
+  for (size_t i = 0; i < pairs->count; ++i)
+    for (int k = 0; k < 2; ++k)
+      name_component(&pairs->pair[i], k, pairs);
 }
 
 fg_status fg__grib_pairs_find(fg__grib_pairs *out, const fg__grib_file *file)
 {
   *out = (fg__grib_pairs){0};
-  fg_status status = add_all(out, file, true);
-  if (status == FG_STATUS_OK)
-    status = add_all(out, file, false);
-  for (size_t i = 0; i < out->count; ++i)
-    for (int k = 0; k < 2; ++k)
-      name_component(&out->pair[i], k, out);
+  fg_status status = FG_STATUS_OK;
+  for (int rank = FG__GRIB_VELOCITY; rank <= FG__GRIB_OTHER; ++rank)
+    for (size_t i = 0; i < file->kinds * file->kinds && status == FG_STATUS_OK; ++i) {
+      const fg__grib_kind *u = &file->kind[i / file->kinds],
+                          *v = &file->kind[i % file->kinds];
+      fg__grib_rank own;
+      if (rank_of(&own, u, v) && (int)own == rank &&
+          (own == FG__GRIB_POLAR || fg__grib_match(u, v)))
+        status = add_pair(out, file, u, v, own);
+    }
+  name_all(out);
   return status;
 }
 
@@ -237,14 +254,17 @@ fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
 {
   *out = (fg__grib_pairs){0};
   fg_status status = FG_STATUS_OK;
-  for (size_t i = 0; i < file->kinds && status == FG_STATUS_OK; ++i)
-    for (size_t j = 0; j < file->kinds && status == FG_STATUS_OK; ++j)
-      if (fg__grib_is_named(&file->kind[i], u) && fg__grib_is_named(&file->kind[j], v) &&
-          stand_together(&file->kind[i], &file->kind[j]))
-        status = add_pair(out, file, &file->kind[i], &file->kind[j]);
-  for (size_t i = 0; i < out->count; ++i)
-    for (int k = 0; k < 2; ++k)
-      name_component(&out->pair[i], k, out);
+  for (size_t i = 0; i < file->kinds * file->kinds && status == FG_STATUS_OK; ++i) {
+    const fg__grib_kind *a = &file->kind[i / file->kinds],
+                        *b = &file->kind[i % file->kinds];
+    fg__grib_rank rank;
+    const bool named = fg__grib_is_named(a, u) && fg__grib_is_named(b, v);
+    if (named && rank_of(&rank, a, b))
+      status = add_pair(out, file, a, b, rank);
+    else if (named && rank_of(&rank, b, a) && rank == FG__GRIB_POLAR)
+      status = add_pair(out, file, b, a, rank);
+  }
+  name_all(out);
   return status;
 }
 

@@ -21,6 +21,8 @@ static const char *const DIFFERING[][2] = {
     {"x-component", "y-component"},
 };
 
+static const char *const POLAR[][2] = {{"speed", "direction"}};
+
 /* Parameters without a title: discipline, category and number of edition 2. */
 static const char *const NUMBERED[][2] = {
     {"0.2.2", "0.2.3"},   {"0.2.23", "0.2.24"}, {"0.2.41", "0.2.42"},
@@ -47,24 +49,26 @@ static bool is_word(const char *at, size_t length, const char *word)
   return strlen(word) == length && strncasecmp(at, word, length) == 0;
 }
 
-static bool differ_as_components(const char *u, size_t us, const char *v, size_t vs)
+typedef const char *const word_pair[2];
+
+static bool differ_by(word_pair *words, size_t count, const char *u, size_t us,
+                      const char *v, size_t vs)
 {
-  for (size_t i = 0; i < sizeof DIFFERING / sizeof *DIFFERING; ++i)
-    if (is_word(u, us, DIFFERING[i][0]) && is_word(v, vs, DIFFERING[i][1]))
+  for (size_t i = 0; i < count; ++i)
+    if (is_word(u, us, words[i][0]) && is_word(v, vs, words[i][1]))
       return true;
   return false;
 }
 
-bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v)
+/* Whether titles are alike but for one of the pairs of words. */
+static bool match_titles(const fg__grib_kind *u, const fg__grib_kind *v, word_pair *words,
+                         size_t count)
 {
   const char *a = skip_space(u->title), *b = skip_space(v->title);
   int differing = 0;
-  for (size_t i = 0; !*a && !*b && i < sizeof NUMBERED / sizeof *NUMBERED; ++i)
-    if (strcmp(u->name, NUMBERED[i][0]) == 0 && strcmp(v->name, NUMBERED[i][1]) == 0)
-      return true;
   while (*a && *b) {
     const size_t as = word_length(a), bs = word_length(b);
-    if (differ_as_components(a, as, b, bs))
+    if (differ_by(words, count, a, as, b, bs))
       ++differing;
     else if (as != bs || strncasecmp(a, b, as) != 0)
       return false;
@@ -72,6 +76,21 @@ bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v)
     b = skip_space(b + bs);
   }
   return !*a && !*b && differing == 1;
+}
+
+bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v)
+{
+  const bool untitled = !*skip_space(u->title) && !*skip_space(v->title);
+  for (size_t i = 0; untitled && i < sizeof NUMBERED / sizeof *NUMBERED; ++i)
+    if (strcmp(u->name, NUMBERED[i][0]) == 0 && strcmp(v->name, NUMBERED[i][1]) == 0)
+      return true;
+  return match_titles(u, v, DIFFERING, sizeof DIFFERING / sizeof *DIFFERING);
+}
+
+bool fg__grib_match_polar(const fg__grib_kind *speed, const fg__grib_kind *direction)
+{
+  return (strstr(speed->title, "wind") || strstr(speed->title, "Wind")) &&
+         match_titles(speed, direction, POLAR, sizeof POLAR / sizeof *POLAR);
 }
 
 void fg__grib_title(const fg__grib_pair *pair, char *out, size_t size)

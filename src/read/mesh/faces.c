@@ -28,7 +28,8 @@ static bool shift_by_lines(fg__nc_mesh *mesh, const fg__nc_file *file, int k)
       fg__nc_fetch(centres, &start, &count, centre))
     return false;
   const double off = (face[0] - centre[0]) / (centre[1] - centre[0]);
-  if (!(fabs(off) > SAME_PLACE && fabs(off) < 1.0 - SAME_PLACE))
+  mesh->apart = mesh->apart || fabs(off) >= 1.0 - SAME_PLACE;
+  if (!(fabs(off) > SAME_PLACE) || mesh->apart)
     return false;
   mesh->shift[k] = off > 0.0 ? 1 : -1;
   return true;
@@ -123,7 +124,9 @@ fg_status fg__nc_faces_find(fg__nc_grid *grid, const fg__nc_file *file,
   for (int k = 0; k < 2; ++k) {
     bool found =
         mesh.part[k].grid.axis[k].size == mesh.size[k] && shift_by_lines(&mesh, file, k);
-    if (!found)
+    if (mesh.apart)
+      fg__nc_refuse_apart(grid, pair);
+    else if (!found)
       found = fg__nc_shift_by_size(&mesh, file, k);
     if (!found)
       return FG_STATUS_OK;

@@ -134,16 +134,6 @@ static bool is_same_place(const fg__nc_part *a, const fg__nc_part *b)
          a->longitude == b->longitude && a->latitude == b->latitude;
 }
 
-/* Whether names are alike, or differ in a u of one where the other has a v ("depthu" and
- * "depthv" of NEMO). */
-static bool named_alike(const char *of_u, const char *of_v)
-{
-  for (; *of_u && *of_v; ++of_u, ++of_v)
-    if (*of_u != *of_v && !(*of_u == 'u' && *of_v == 'v'))
-      return false;
-  return *of_u == *of_v;
-}
-
 /* Whether components have the same times, or the same levels. */
 static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
                        const fg__nc_part *v, int of_v)
@@ -154,8 +144,9 @@ static bool runs_alike(const fg__nc_file *file, const fg__nc_part *u, int of_u,
   const fg__nc_dimension *of = file->dimensions;
   if (a == b || of[a].length != of[b].length)
     return a == b;
-  return u->variable->file == v->variable->file ? strcmp(of[a].name, of[b].name) == 0
-                                                : named_alike(of[a].name, of[b].name);
+  return u->variable->file == v->variable->file
+             ? strcmp(of[a].name, of[b].name) == 0
+             : fg__nc_named_alike(of[a].name, of[b].name);
 }
 
 static bool fits(const fg__nc_mesh *mesh)
@@ -244,6 +235,7 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
                            const fg__nc_pair *pair, fg_frame frame, bool *found)
 {
   *found = false;
+  mesh->polar = pair->polar;
   if (!fg__nc_mesh_parts(mesh, file, pair))
     return FG_STATUS_OK;
   for (int k = 0; k < 2; ++k)
@@ -253,6 +245,8 @@ static fg_status recognise(fg__nc_mesh *mesh, fg__nc_grid *grid, const fg__nc_fi
   if (storage.unusable[0])
     return FG_STATUS_OK;
   fg_status status = find_shift(found, mesh, file);
+  if (status == FG_STATUS_OK && mesh->apart)
+    fg__nc_refuse_apart(grid, pair);
   if (status != FG_STATUS_OK || !*found)
     return status;
   grid->unusable[0] = grid->hint[0] = '\0';

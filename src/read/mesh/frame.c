@@ -194,7 +194,10 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
   const bool angle = mesh->turn != FG__NC_TURN_GEOMETRY;
   const char *word = word_of_pair(pair, angle);
   int frame = 0; /* 1: east, -1: grid */
-  if (wanted != FG_FRAME_AUTO) {
+  if (pair->polar.sense != 0) {
+    frame = 1;
+    fg__nc_polar_words(why, sizeof why, pair);
+  } else if (wanted != FG_FRAME_AUTO) {
     frame = wanted == FG_FRAME_EAST ? 1 : -1;
     snprintf(why, sizeof why, "as asked");
   } else if (standard != 0) {

@@ -29,7 +29,9 @@ struct fg__nc_mesh {
   size_t size[2];      /* centres along i and j */
   int shift[2];        /* component k along its own direction: sample 0 lies on centre 0,
                           half a cell before (-1) or after it (1) */
+  bool apart;          /* components lie elsewhere than on the faces of one grid */
   fg__nc_turn turn;
+  fg__polar polar; /* components are a speed and a direction */
   const fg__nc_variable *angle[2];
   const fg__nc_variable *mask; /* of the centres: 0 is land; NULL: none */
   char rule[2 * FG__NC_TEXT];  /* which rule chose the frame */

@@ -11,6 +11,9 @@
 /* Points nearer than this fraction of a cell coincide. */
 static const double SAME_PLACE = 0.1;
 
+/* Components on faces are half a cell from the centres; a tenth more is rounding. */
+static const double HALF_A_CELL = 0.6;
+
 void fg__nc_positions_clear(fg__nc_positions *positions)
 {
   free(positions->longitude);
@@ -171,39 +174,73 @@ static size_t stride(size_t size)
   return size / COMPARED + 1;
 }
 
-/* The mean distance of a component's samples from the mid-points of centre (i, j) and its
- * neighbour on that side. */
-static double misfit(const lattice *component, const lattice *centre, int k, int side)
+/* Distances between points that should coincide. */
+typedef struct misfit {
+  double sum;
+  size_t count, far; /* points; those that are more than half a cell apart */
+} misfit;
+
+/* The longer side of the cell from sample (i, j) on; NaN: none. */
+static double cell_at(const lattice *of, size_t i, size_t j)
 {
-  double sum = 0.0;
-  size_t count = 0;
+  double here[3], next[3], longest = (double)NAN;
+  place_of(here, of, i, j);
+  for (int k = 0; k < 2; ++k) {
+    const size_t at[2] = {i + (k == 0), j + (k == 1)};
+    if (at[k] >= of->size[k])
+      continue;
+    place_of(next, of, at[0], at[1]);
+    longest = fmax(longest, fg__distance(here, next));
+  }
+  return longest;
+}
+
+static void add_distance(misfit *to, const double a[3], const double b[3], double cell)
+{
+  const double distance = fg__distance(a, b);
+  to->sum += distance;
+  ++to->count;
+  to->far += distance > HALF_A_CELL * cell;
+}
+
+static double mean_of(const misfit *of)
+{
+  return of->count > 0 ? of->sum / (double)of->count : HUGE_VAL;
+}
+
+static bool is_far(const misfit *of)
+{
+  return 2 * of->far > of->count;
+}
+
+/* Of a component's samples and the mid-points of centre (i, j) and its neighbour on that
+ * side. */
+static misfit misfit_beside(const lattice *component, const lattice *centre, int k,
+                            int side)
+{
+  misfit out = {0};
   for (size_t j = 0; j < component->size[1]; j += stride(component->size[1]))
     for (size_t i = 0; i < component->size[0]; i += stride(component->size[0])) {
       double between[3], own[3];
       place_of(own, component, i, j);
-      if (!half_way(between, centre, i, j, k, side) || !isfinite(own[0]))
-        continue;
-      sum += fg__distance(own, between);
-      ++count;
+      if (half_way(between, centre, i, j, k, side) && isfinite(own[0]))
+        add_distance(&out, own, between, cell_at(centre, i, j));
     }
-  return count > 0 ? sum / (double)count : HUGE_VAL;
+  return out;
 }
 
-/* The mean distance of the two components' points at equal indices, each shifted half way
- * to its neighbour on the given side. */
-static double misfit_between(const lattice *u, const lattice *v, const int side[2])
+/* Of the two components' points at equal indices, each shifted half way to its neighbour
+ * on the given side. */
+static misfit misfit_between(const lattice *u, const lattice *v, const int side[2])
 {
-  double sum = 0.0;
-  size_t count = 0;
+  misfit out = {0};
   for (size_t j = 0; j < u->size[1]; j += stride(u->size[1]))
     for (size_t i = 0; i < u->size[0]; i += stride(u->size[0])) {
       double a[3], b[3];
-      if (!half_way(a, u, i, j, 0, side[0]) || !half_way(b, v, i, j, 1, side[1]))
-        continue;
-      sum += fg__distance(a, b);
-      ++count;
+      if (half_way(a, u, i, j, 0, side[0]) && half_way(b, v, i, j, 1, side[1]))
+        add_distance(&out, a, b, cell_at(u, i, j));
     }
-  return count > 0 ? sum / (double)count : HUGE_VAL;
+  return out;
 }
 
 /* The mean distance of points at equal indices, in steps along i. */
@@ -238,15 +275,17 @@ static void shift_by_both(bool *found, fg__nc_mesh *mesh, const lattice of[2])
   double least = HUGE_VAL;
   for (int n = 0; n < 4; ++n) {
     const int side[2] = {n & 1 ? 1 : -1, n & 2 ? 1 : -1};
-    const double off = misfit_between(&of[0], &of[1], side);
-    if (off >= least)
+    const misfit off = misfit_between(&of[0], &of[1], side);
+    if (mean_of(&off) >= least)
       continue;
-    least = off;
+    least = mean_of(&off);
+    mesh->apart = is_far(&off);
     /* a sample before and one at the index: the component lies after the centre */
     mesh->shift[0] = -side[0];
     mesh->shift[1] = -side[1];
     *found = true;
   }
+  *found = *found && !mesh->apart;
 }
 
 static void shift_by_centre(bool *found, fg__nc_mesh *mesh, const lattice *component,
@@ -258,11 +297,12 @@ static void shift_by_centre(bool *found, fg__nc_mesh *mesh, const lattice *compo
     *found = true;
     return;
   }
-  const double before = misfit(component, centre, k, -1);
-  const double after = misfit(component, centre, k, 1);
-  if (before == after)
+  const misfit before = misfit_beside(component, centre, k, -1);
+  const misfit after = misfit_beside(component, centre, k, 1);
+  if (mean_of(&before) == mean_of(&after))
     return;
-  mesh->shift[k] = before < after ? -1 : 1;
+  mesh->shift[k] = mean_of(&before) < mean_of(&after) ? -1 : 1;
+  mesh->apart = mesh->apart || is_far(mesh->shift[k] < 0 ? &before : &after);
   *found = true;
 }
 
@@ -339,7 +379,7 @@ static fg_status find_from_centres(bool *found, fg__nc_mesh *mesh,
                          : FG_STATUS_OK;
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
     status = find_one(&one[k], mesh, file, &centre, k);
-  *found = one[0] && one[1];
+  *found = one[0] && one[1] && !mesh->apart;
   fg__nc_positions_clear(&centre.at);
   return status;
 }

@@ -326,6 +326,8 @@ static fg_status fill(centre_values *all, fg__nc_mesh *mesh, const fg__nc_file *
   free(part[0]);
   free(part[1]);
   if (status == FG_STATUS_OK)
+    fg__polar_turn_all(all->component, all->count, &mesh->polar);
+  if (status == FG_STATUS_OK)
     status = read_mask(all, file, mask, time, level);
   for (size_t n = 0; n < all->count && status == FG_STATUS_OK && all->wet; ++n)
     if (!all->wet[n])

@@ -18,7 +18,7 @@ fg_status fg__nc_sphere_read(fg__sphere **out, const fg__nc_file *file,
     return status;
   fg__nc_model_plane(grid->mesh, file, pair->component[0], &cells);
   const fg_field_arrays of_field = {
-      .velocity_name = {pair->component[0]->name, pair->component[1]->name},
+      .velocity_name = {fg__nc_component_name(pair, 0), fg__nc_component_name(pair, 1)},
       .velocity_units = words.units,
       .title = words.title,
       .time = words.time[0] ? words.time : NULL,

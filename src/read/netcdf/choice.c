@@ -61,74 +61,15 @@ static const fg__nc_variable *find_named(const fg__nc_file *file, const char *na
   return fg__nc_find(file, name);
 }
 
-/* Whether a variable is a direction, by its standard name, or else by a name with dir and
- * units of degrees; *to: the one to which it goes. */
-static bool is_direction(bool *to, const fg__nc_variable *v)
-{
-  char standard[FG__NC_TEXT], units[FG__NC_TEXT];
-  fg__nc_text(v, "standard_name", standard, sizeof standard);
-  *to = strstr(standard, "to_direction") != NULL;
-  if (standard[0])
-    return strstr(standard, "_direction") != NULL;
-  fg__nc_text(v, "units", units, sizeof units);
-  *to = strstr(v->plain_name, "wind") == NULL && v->plain_name[0] != 'w';
-  return (strstr(v->plain_name, "dir") || strstr(v->plain_name, "Dir") ||
-          strstr(v->plain_name, "DIR")) &&
-         strncmp(units, "deg", 3) == 0;
-}
-
-/* The first variable whose standard name is that of a speed and begins with the same word
- * as a direction's; "speed": none. */
-static const char *speed_of(const fg__nc_file *file, const fg__nc_variable *direction)
-{
-  char way[FG__NC_TEXT], standard[FG__NC_TEXT];
-  fg__nc_text(direction, "standard_name", way, sizeof way);
-  const size_t word = strcspn(way, "_");
-  for (size_t i = 0; word > 0 && i < file->variable_count; ++i) {
-    fg__nc_text(&file->variables[i], "standard_name", standard, sizeof standard);
-    if (strstr(standard, "_speed") && strncmp(standard, way, word + 1) == 0)
-      return file->variables[i].name;
-  }
-  return "speed";
-}
-
-static void hint_at_components(const fg__nc_file *file, const fg__nc_variable *direction)
-{
-  bool to;
-  is_direction(&to, direction);
-  const char *sign = to ? "" : "-", *speed = speed_of(file, direction);
-  fg__hint(
-      file->context,
-      "speed and direction are not read from NetCDF files; write u = %s%.60s * "
-      "sin(%.60s) and v = %s%.60s * cos(%.60s) first, as by cdo expr or ncap2, whose "
-      "angles are in radians",
-      sign, speed, direction->name, sign, speed, direction->name);
-}
-
 /* The first direction among the variables of two dimensions or more; NULL: none. */
 static const fg__nc_variable *find_direction(const fg__nc_file *file)
 {
-  bool to;
+  fg__polar ignored;
   for (size_t i = 0; i < file->variable_count; ++i)
-    if (file->variables[i].rank >= 2 && is_direction(&to, &file->variables[i]))
+    if (file->variables[i].rank >= 2 && file->variables[i].geographic == FG__NC_NO_ROLE &&
+        fg__nc_direction(&ignored, &file->variables[i]))
       return &file->variables[i];
   return NULL;
-}
-
-/* Refuses two names of which one is a direction's. */
-static fg_status check_components(const fg__nc_file *file, const fg__nc_pair *pair)
-{
-  bool to;
-  const bool way[2] = {is_direction(&to, pair->component[0]),
-                       is_direction(&to, pair->component[1])};
-  if (way[0] == way[1])
-    return FG_STATUS_OK;
-  const fg__nc_variable *direction = pair->component[way[0] ? 0 : 1];
-  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-           "%s: '%s' is a direction, not a vector's component", file->paths[0],
-           direction->name);
-  hint_at_components(file, direction);
-  return FG_STATUS_UNSUPPORTED;
 }
 
 static fg_status fail_unknown_name(const fg__nc_file *file, const candidates *all,
@@ -222,7 +163,7 @@ static fg_status choose_named(fg__nc_pair *out, const fg__nc_file *file,
     if (out->component[k] == out->component[(k + 1) % count])
       return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
                       file->paths[0], count == 2 ? "both" : "two", name[k]);
-  const fg_status status = count == 2 ? check_components(file, out) : FG_STATUS_OK;
+  const fg_status status = count == 2 ? fg__nc_settle_polar(out, file) : FG_STATUS_OK;
   return status == FG_STATUS_OK ? check_order(file, all, out) : status;
 }
 
@@ -277,7 +218,8 @@ static fg_status fail_no_vectors(const fg__nc_file *file)
                file->variable_count, file->variable_count == 1 ? "" : "s", names);
   const fg__nc_variable *direction = find_direction(file);
   if (direction)
-    hint_at_components(file, direction);
+    fg__hint(file->context, "name the speed with its direction: --vars SPEED,%s",
+             direction->name);
   else if (file->component_files == 1)
     fg__hint(file->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");

@@ -2,7 +2,7 @@
  * an ensemble. */
 #include "base/memory.h"
 #include "flowgrain/inventory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -63,6 +63,9 @@ static fg_status select_sample(size_t *out, const fg__nc_file *file,
     status = fg__fail(file->context, FG_STATUS_ARGUMENT,
                       "%s: '%.100s=%.100s' are %d samples, and one is read at a time",
                       path_of(file, d), d->name, which, found.count);
+    fg__hint(file->context,
+             "read each by itself; flowgrain draw shows the folders of several runs as "
+             "panels of one figure");
   } else if (found.nearest) {
     status = fg__fail(file->context, FG_STATUS_ARGUMENT,
                       "%s: '%.100s=%.100s' is not there; the nearest is %s",
@@ -72,6 +75,57 @@ static fg_status select_sample(size_t *out, const fg__nc_file *file,
   }
   fg_selection_clear(&found);
   fg_context_destroy(own);
+  return status;
+}
+
+/* The values or names of a dimension's samples; NULL: none. *values and *text are for
+ * free(), also after a failure. */
+static fg_status read_values(fg_axis_value **values, char **text, const fg__nc_file *file,
+                             int dimension)
+{
+  const size_t count = file->dimensions[dimension].length;
+  fg_status status =
+      fg__nc_axis_values(values, text, file, coordinate_of(file, dimension), count);
+  if (status == FG_STATUS_OK && !*values) {
+    free(*text);
+    *text = NULL;
+    status = fg__nc_labels(values, text, file, dimension);
+  }
+  return status;
+}
+
+/* "2" of "number 2". */
+static const char *without_name(const char *words, const char *name)
+{
+  const size_t length = strlen(name);
+  return strncmp(words, name, length) == 0 && words[length] == ' ' ? words + length + 1
+                                                                   : words;
+}
+
+fg_status fg__nc_offer_samples(char *out, size_t size, const fg__nc_file *file,
+                               int dimension)
+{
+  enum { FIRST = 4 };
+  const fg__nc_dimension *d = &file->dimensions[dimension];
+  fg_axis_value *values = NULL;
+  char *text = NULL;
+  fg_status status = d->length > 0 && d->length <= MOST_SAMPLES
+                         ? read_values(&values, &text, file, dimension)
+                         : FG_STATUS_OK;
+  if (status == FG_STATUS_OK && values) {
+    int used = snprintf(out, size, "--at %.80s=WHICH reads one of them:", d->name);
+    for (size_t n = 0; n < d->length && (size_t)used < size; ++n) {
+      if (n == FIRST && d->length > FIRST + 1)
+        n = d->length - 1;
+      const char *between = n == 0 ? "" : n > FIRST ? ", ...," : ",";
+      used += snprintf(out + used, size - (size_t)used, "%s %.40s", between,
+                       without_name(values[n].words, d->name));
+    }
+  } else if (status == FG_STATUS_OK) {
+    snprintf(out, size, "--at %.80s=0 reads the first of them", d->name);
+  }
+  free(values);
+  free(text);
   return status;
 }
 
@@ -86,12 +140,7 @@ static fg_status choose_sample(fg__nc_file *file, int dimension, const char *whi
                     d->length ? "%s: '%.100s' has %zu samples; one can be chosen of %d"
                               : "%s: dimension '%.100s' is empty",
                     path_of(file, d), d->name, d->length, MOST_SAMPLES);
-  fg_status status =
-      fg__nc_axis_values(&values, &text, file, coordinate_of(file, dimension), d->length);
-  if (status == FG_STATUS_OK && !values) {
-    free(text);
-    status = fg__nc_labels(&values, &text, file, dimension);
-  }
+  fg_status status = read_values(&values, &text, file, dimension);
   if (status == FG_STATUS_OK)
     status = select_sample(&d->chosen, file, d, which, values);
   if (status == FG_STATUS_OK) {
@@ -151,7 +200,32 @@ static fg_status choose_named(fg__nc_file *file, const char *name, const char *w
   return FG_STATUS_ARGUMENT;
 }
 
-fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
+static bool has_dimension(const fg__nc_file *file, int root, const char *name)
+{
+  for (size_t i = 0; i < file->dimension_count; ++i)
+    if (file->dimensions[i].root == root && strcmp(file->dimensions[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+/* The same in files without a dimension of the name, of the other component's ("depthv"
+ * of "depthu") that nothing is chosen of. */
+static fg_status choose_alike(fg__nc_file *file, const char *name, const char *which)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < file->dimension_count && status == FG_STATUS_OK; ++i) {
+    const fg__nc_dimension *d = &file->dimensions[i];
+    const bool alike =
+        fg__nc_named_alike(name, d->name) || fg__nc_named_alike(d->name, name);
+    if (alike && !d->is_chosen && !has_dimension(file, d->root, name))
+      status = choose_sample(file, (int)i, which);
+  }
+  return status;
+}
+
+typedef fg_status chooser(fg__nc_file *file, const char *name, const char *which);
+
+static fg_status choose_each(fg__nc_file *file, const char *text, chooser *choose)
 {
   char *copy = fg__copy_text(text);
   fg_status status =
@@ -167,11 +241,19 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
       break;
     }
     *equals = '\0';
-    status = choose_named(file, one + strspn(one, " "), equals + 1);
+    status = choose(file, one + strspn(one, " "), equals + 1);
     one = comma ? comma + 1 : NULL;
   }
-  memset(file->was_read, 0, sizeof file->was_read);
   free(copy);
+  return status;
+}
+
+fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text)
+{
+  fg_status status = choose_each(file, text, choose_named);
+  if (status == FG_STATUS_OK)
+    status = choose_each(file, text, choose_alike);
+  memset(file->was_read, 0, sizeof file->was_read);
   return status;
 }
 

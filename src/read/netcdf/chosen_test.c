@@ -96,6 +96,12 @@ static void values_go_before_indices(void **state)
   }
   refuse_with(f, &(fg_read_options){.at = "expver=1.2"}, FG_STATUS_ARGUMENT,
               "'expver=1.2' is not there; the nearest is expver 1");
+  fg_field *field = NULL;
+  const fg_read_options both = {.at = "expver=0:1"};
+  fg_context_clear(f->context);
+  assert_int_equal(fg_field_read(&field, f->context, f->path, &both), FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(f->context), "are 2 samples"));
+  assert_non_null(strstr(fg_context_hint(f->context), "flowgrain draw"));
 }
 
 /* What is chosen leaves its part, as that of time, to another dimension: a record
@@ -183,6 +189,26 @@ static void any_dimension_can_be_chosen(void **state)
   fg_field_destroy(field);
 }
 
+/* A time is told once, though components name it among their coordinates (ERA5). */
+static void a_time_that_is_chosen_is_told_once(void **state)
+{
+  static const double hours[TIMES] = {0.0, 6.0};
+  sample_file *f = *state;
+  const double values[TIMES * COUNT] = {[COUNT] = 1.0};
+  sample_begin(f, 0);
+  const int all[] = {sample_axis(f, "valid_time", TIMES, hours, "hours since 2020-01-01"),
+                     sample_axis(f, "y", NY, Y, "km"), sample_axis(f, "x", NX, X, "km")};
+  for (int k = 0; k < 2; ++k) {
+    const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 3, all);
+    sample_text(f, id, "coordinates", "number valid_time");
+    sample_put(f, id, values);
+  }
+  sample_end(f);
+  fg_field *field = read_with(f, &(fg_read_options){.at = "valid_time=1"});
+  assert_string_equal(fg_field_contents(field)->time, "2020-01-01 06:00");
+  fg_field_destroy(field);
+}
+
 static void choices_are_checked(void **state)
 {
   static const struct {
@@ -204,6 +230,8 @@ static void choices_are_checked(void **state)
       {"member=0,version=0,letters=1", "'u' and 'v' have no dimension 'letters'",
        FG_STATUS_ARGUMENT},
       {"member=0,version=0,x=1", "its x axis 'x' has only 1", FG_STATUS_UNSUPPORTED}};
+  static const char *const hints[] = {"--at member=WHICH reads one of them: 0, 10, 20",
+                                      "--at version=0 reads the first of them"};
   sample_file *f = *state;
   make_ensemble(f, 0);
   for (size_t n = 0; n < sizeof faults / sizeof *faults; ++n) {
@@ -216,6 +244,8 @@ static void choices_are_checked(void **state)
       fail_msg("%s: %d, \"%s\"", faults[n].at ? faults[n].at : "", (int)status,
                fg_context_message(f->context));
     assert_null(field);
+    if (n < sizeof hints / sizeof *hints)
+      assert_string_equal(fg_context_hint(f->context), hints[n]);
   }
   assert_int_equal(fg_field_read(&(fg_field *){NULL}, f->context, "synth:saddle",
                                  &(fg_read_options){.at = "member=1"}),
@@ -293,6 +323,7 @@ int main(void)
       CASE(one_of_several_dimensions_is_read),
       CASE(inventories_tell_what_is_chosen),
       CASE(any_dimension_can_be_chosen),
+      CASE(a_time_that_is_chosen_is_told_once),
       CASE(choices_are_checked),
       CASE(samples_have_labels),
       CASE(values_go_before_indices),

@@ -110,17 +110,22 @@ static void axes_may_lie_in_a_file_of_the_mesh(void **state)
 enum { FACE_COLUMNS = 16, FACE_ROWS = 14, FACES = FACE_COLUMNS * FACE_ROWS };
 
 /* A component of a solid rotation about 5 west, 47 north on a grid of 2 degrees, where
- * its sample (i, j) lies at (i + right, j + up) from 21 west, 33 north. plane: whether
- * longitude and latitude are arrays of two dimensions. */
-static void make_component(sample_file *f, int k, double right, double up, bool plane)
+ * its sample (i, j) lies at (i + right, j + up) from 21 west, 33 north. */
+typedef enum coordinates { LINES, PLANE, CURVED } coordinates;
+
+static void make_component(sample_file *f, int k, double right, double up,
+                           coordinates kind)
 {
+  const bool plane = kind != LINES;
+  const double bend = kind == CURVED ? 0.5 : 0.0;
   static const char *const names[2][2] = {{"nav_lat", "nav_lon"}, {"y", "x"}};
   static const char *const units[] = {"degrees_north", "degrees_east"};
   static const char *const standard[] = {"sea_water_x_velocity", "sea_water_y_velocity"};
   double at[2][FACES], line[2][FACES], speed[FACES];
   for (int n = 0; n < FACES; ++n) {
-    at[0][n] = 33.0 + 2.0 * (n / FACE_COLUMNS + up);
-    at[1][n] = -21.0 + 2.0 * (n % FACE_COLUMNS + right);
+    const double i = n % FACE_COLUMNS + right, j = n / FACE_COLUMNS + up;
+    at[0][n] = 33.0 + 2.0 * j - bend * i;
+    at[1][n] = -21.0 + 2.0 * i + bend * j;
     line[0][n] = 33.0 + 2.0 * (n + up);
     line[1][n] = -21.0 + 2.0 * (n + right);
     speed[n] = k == 0 ? -0.05 * (at[0][n] - 47.0) : 0.05 * (at[1][n] + 5.0);
@@ -173,8 +178,8 @@ static void components_on_faces_in_two_files_meet_at_the_centres(void **state)
   for (int plane = 0; plane < 2; ++plane)
     for (int side = -1; side <= 1; side += 2) {
       const fg_read_options options = {.vars = "uo,vo", .vars_from = second.path};
-      make_component(f, 0, 0.5 * side, 0.0, plane == 1);
-      make_component(&second, 1, 0.0, 0.5 * side, plane == 1);
+      make_component(f, 0, 0.5 * side, 0.0, plane ? PLANE : LINES);
+      make_component(&second, 1, 0.0, 0.5 * side, plane ? PLANE : LINES);
       fg_field *field = read_with(f, &options);
       assert_rotation(field, 5e-3);
       fg_field_destroy(field);
@@ -197,13 +202,134 @@ static void components_at_the_same_places_in_two_files_stay_on_axes(void **state
   sample_file second = *f;
   snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
   const fg_read_options options = {.vars = "uo,vo", .vars_from = second.path};
-  make_component(f, 0, 0.0, 0.0, true);
-  make_component(&second, 1, 1e-6, -1e-6, true);
+  make_component(f, 0, 0.0, 0.0, PLANE);
+  make_component(&second, 1, 1e-6, -1e-6, PLANE);
   fg_field *field = read_with(f, &options);
   assert_int_equal(fg_field_contents(field)->size[0], FACE_COLUMNS);
   assert_int_equal(fg_field_contents(field)->size[1], FACE_ROWS);
   assert_rotation(field, 1e-6);
   fg_field_destroy(field);
+  unlink(second.path);
+}
+
+/* Half a cell apart is a staggered grid; more are two grids. */
+static void components_of_different_regions_are_refused(void **state)
+{
+  static const double off[][2] = {{0.0, 0.0}, {30.0, 0.0}, {0.0, -12.0}, {1.5, 1.0}};
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  const fg_read_options options = {.vars = "uo,vo", .vars_from = second.path};
+  for (int kind = LINES; kind <= CURVED; ++kind)
+    for (size_t n = 0; n < sizeof off / sizeof *off; ++n) {
+      make_component(f, 0, 0.5, 0.0, (coordinates)kind);
+      make_component(&second, 1, off[n][0], 0.5 + off[n][1], (coordinates)kind);
+      if (n == 0)
+        fg_field_destroy(read_with(f, &options));
+      else
+        refuse_with(f, &options, FG_STATUS_UNSUPPORTED,
+                    "second.nc lie more than half a cell apart");
+    }
+  unlink(second.path);
+}
+
+/* The same in a plane whose axes are no degrees. */
+static void faces_of_different_regions_are_refused(void **state)
+{
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  const fg_read_options options = {.vars = "u,v", .vars_from = second.path};
+  for (int far = 0; far < 2; ++far) {
+    sample_file *const file[] = {f, &second};
+    for (int k = 0; k < 2; ++k) {
+      double x[FACE_COLUMNS], y[FACE_ROWS];
+      for (int n = 0; n < FACE_COLUMNS; ++n)
+        x[n] = n + (k == 0 ? 0.5 : 40.0 * far);
+      for (int n = 0; n < FACE_ROWS; ++n)
+        y[n] = n + (k == 1 ? 0.5 : 0.0);
+      sample_begin(file[k], 0);
+      const int all[2] = {sample_axis(file[k], "y", FACE_ROWS, y, "km"),
+                          sample_axis(file[k], "x", FACE_COLUMNS, x, "km")};
+      double speed[FACES];
+      for (int n = 0; n < FACES; ++n)
+        speed[n] = 1.0 + k;
+      sample_put(file[k], sample_variable(file[k], k ? "v" : "u", NC_DOUBLE, 2, all),
+                 speed);
+      sample_end(file[k]);
+    }
+    if (far)
+      refuse_with(f, &options, FG_STATUS_UNSUPPORTED,
+                  "second.nc lie more than half a cell apart");
+    else
+      fg_field_destroy(read_with(f, &options));
+  }
+  unlink(second.path);
+}
+
+enum { LEVELS = 3 };
+
+/* NEMO's grid_U and grid_V at depths: each file has a name of its own for these. Speeds
+ * are 1 + level; v's are doubled. */
+static void make_layers(sample_file *f, int k, const double *depth)
+{
+  static const char *const names[] = {"depthu", "depthv"};
+  static const char *const standard[] = {"sea_water_x_velocity", "sea_water_y_velocity"};
+  double x[FACE_COLUMNS], y[FACE_ROWS], speed[LEVELS * FACES];
+  for (int n = 0; n < FACE_COLUMNS; ++n)
+    x[n] = -21.0 + 2.0 * (n + (k == 0 ? 0.5 : 0.0));
+  for (int n = 0; n < FACE_ROWS; ++n)
+    y[n] = 33.0 + 2.0 * (n + (k == 1 ? 0.5 : 0.0));
+  for (int n = 0; n < LEVELS * FACES; ++n)
+    speed[n] = (1.0 + k) * (1.0 + n / FACES);
+  sample_begin(f, 0);
+  const int all[3] = {sample_axis(f, names[k], LEVELS, depth, "m"),
+                      sample_axis(f, "y", FACE_ROWS, y, "degrees_north"),
+                      sample_axis(f, "x", FACE_COLUMNS, x, "degrees_east")};
+  const int id = sample_variable(f, k == 0 ? "uo" : "vo", NC_DOUBLE, 3, all);
+  sample_text(f, id, "units", "m/s");
+  sample_text(f, id, "standard_name", standard[k]);
+  sample_put(f, id, speed);
+  sample_end(f);
+}
+
+/* The level of the options, or the sample of one's dimension, is that of both. */
+static void levels_of_two_names_are_joined(void **state)
+{
+  static const double depth[LEVELS] = {0.5, 10.0, 100.0}, other[] = {0.5, 12.0, 100.0},
+                      turned[] = {100.0, 10.0, 0.5};
+  static const char *const at[] = {NULL,         "depthu=2",         "depthu=100m",
+                                   "depthv=2",   "depthv=100.0",     "depthu=2,depthv=2",
+                                   "depthu=1 m", "depthu=0,depthv=2"};
+  enum { JOINED = 6, CHOICES = sizeof at / sizeof *at };
+  sample_file *f = *state;
+  sample_file second = *f;
+  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
+  make_layers(f, 0, depth);
+  make_layers(&second, 1, depth);
+  for (int n = 0; n < CHOICES; ++n) {
+    const fg_read_options options = {
+        .vars_from = second.path, .at = at[n], .level = at[n] ? 0 : 2};
+    if (n >= JOINED) {
+      refuse_with(f, &options, n == JOINED ? FG_STATUS_ARGUMENT : FG_STATUS_UNSUPPORTED,
+                  n == JOINED ? "'depthu=1 m' is not there"
+                              : "'depthu' of 'uo' and 'depthv' of 'vo' have different");
+      continue;
+    }
+    fg_field *field = read_with(f, &options);
+    const fg_field_arrays *a = fg_field_contents(field);
+    const int middle = a->size[0] * (a->size[1] / 2) + a->size[0] / 2;
+    assert_string_equal(a->level, "depth 100 m");
+    const double u = (double)a->velocity[0][middle], v = (double)a->velocity[1][middle];
+    assert_true(fabs(hypot(u, v) - 3.0 * sqrt(5.0)) < 1e-5);
+    fg_field_destroy(field);
+  }
+  make_layers(&second, 1, turned);
+  const fg_read_options by_value = {.vars_from = second.path, .at = "depthu=100m"};
+  fg_field_destroy(read_with(f, &by_value));
+  make_layers(&second, 1, other);
+  refuse_with(f, &(fg_read_options){.vars_from = second.path}, FG_STATUS_UNSUPPORTED,
+              "'depthu' of 'uo' and 'depthv' of 'vo' have different values");
   unlink(second.path);
 }
 
@@ -216,6 +342,9 @@ int main(void)
       CASE(axes_may_lie_in_a_file_of_the_mesh),
       CASE(components_on_faces_in_two_files_meet_at_the_centres),
       CASE(components_at_the_same_places_in_two_files_stay_on_axes),
+      CASE(components_of_different_regions_are_refused),
+      CASE(faces_of_different_regions_are_refused),
+      CASE(levels_of_two_names_are_joined),
   };
   return cmocka_run_group_tests_name("read/netcdf/files", tests, NULL, NULL);
 }

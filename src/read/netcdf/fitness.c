@@ -2,12 +2,16 @@
  * hold, and at the same places. */
 #include "read/netcdf/netcdf.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Deflate compresses by at most 1032 (zlib's documentation); a field of more bytes than
  * that times the file's size is not in the file. */
 static const size_t LARGEST_COMPRESSION = 1032;
+
+/* So many times or levels of two files are compared. */
+enum { MOST_COMPARED = 100000 };
 
 static void write_shape(char *out, size_t size, const fg__nc_file *file,
                         const fg__nc_variable *v)
@@ -72,11 +76,59 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
          same_numbers(of_a, of_b, n);
 }
 
+/* Whether two coordinates of n numbers, in one unit, have a value that differs by more
+ * than rounding. */
+static bool differ(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
+{
+  const size_t last = n - 1;
+  double first_value, last_value, x, y;
+  char of_a[FG__NC_TEXT], of_b[FG__NC_TEXT];
+  fg__nc_text(a, "units", of_a, sizeof of_a);
+  fg__nc_text(b, "units", of_b, sizeof of_b);
+  if (strcmp(of_a, of_b) != 0 || fg__nc_fetch_one(a, (size_t[]){0}, &first_value) ||
+      fg__nc_fetch_one(a, &last, &last_value))
+    return false;
+  const double step = n > 1 ? fabs(last_value - first_value) / (double)last : 0.0;
+  const double rounding = fmax(0.01 * step, 1e-6 * fabs(last_value));
+  for (size_t i = 0; i < n; ++i)
+    if (!fg__nc_fetch_one(a, &i, &x) && !fg__nc_fetch_one(b, &i, &y) &&
+        fabs(x - y) > rounding)
+      return true;
+  return false;
+}
+
+/* Compares times, levels and what else is not in the plane where components have
+ * different dimensions for them. */
+static bool check_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
+                             const fg__nc_variable *u, const fg__nc_variable *v)
+{
+  int position[FG__NC_ROLES];
+  fg__nc_roles(position, file, u);
+  for (int k = 0; k < u->rank && u->rank == v->rank; ++k) {
+    const int a = u->dimension[k], b = v->dimension[k];
+    const size_t n = file->dimensions[a].length;
+    if (k == position[FG__NC_X] || k == position[FG__NC_Y] || a == b ||
+        n != file->dimensions[b].length || n > MOST_COMPARED)
+      continue;
+    const fg__nc_variable *x = fg__nc_coordinate(file, u, k);
+    const fg__nc_variable *y = fg__nc_coordinate(file, v, k);
+    if (!x || !y || !fits_file(file, x, n) || !fits_file(file, y, n) || !differ(x, y, n))
+      continue;
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' of '%.60s' and '%.60s' of '%.60s' have different values",
+                     x->plain_name, u->plain_name, y->plain_name, v->plain_name);
+    return false;
+  }
+  return true;
+}
+
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v)
 {
   char of_u[FG__NC_TEXT / 2];
   char of_v[FG__NC_TEXT / 2];
+  if (!check_index_axes(grid, file, u, v))
+    return;
   write_shape(of_u, sizeof of_u, file, u);
   write_shape(of_v, sizeof of_v, file, v);
   if (strcmp(of_u, of_v) != 0) {
@@ -95,6 +147,18 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
           u->plain_name, file->dimensions[u->dimension[k]].name, v->plain_name,
           file->dimensions[v->dimension[k]].name);
     }
+}
+
+void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair)
+{
+  const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
+  const bool other = u->file != v->file;
+  snprintf(grid->unusable, sizeof grid->unusable,
+           "'%.60s' and '%.60s'%s%.200s lie more than half a cell apart: they are of "
+           "different "
+           "grids",
+           u->plain_name, v->plain_name, other ? " of " : "", other ? v->path : "");
+  grid->hint[0] = '\0';
 }
 
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,

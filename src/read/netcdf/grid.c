@@ -1,6 +1,7 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
+#include "read/netcdf/time/dates.h"
 #include "read/unstructured/unstructured.h"
 
 #include <limits.h>
@@ -84,8 +85,8 @@ void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
     grid->time_variable = texts;
 }
 
-static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
-                            const fg__nc_variable *v)
+static fg_status find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
+                                 const fg__nc_variable *v)
 {
   int position[FG__NC_ROLES];
   const int extra = fg__nc_roles(position, file, v);
@@ -94,16 +95,14 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
     fg__set_unusable(grid->unusable,
                      "dimension '%.120s' of %zu samples is neither time nor level",
                      d->name, d->length);
-    snprintf(grid->hint, sizeof grid->hint, "--at %.80s=0 reads the first of them",
-             d->name);
-    return;
+    return fg__nc_offer_samples(grid->hint, sizeof grid->hint, file, v->dimension[extra]);
   }
   if (position[FG__NC_X] < 0 || position[FG__NC_Y] < 0) {
     fg__set_unusable(grid->unusable,
                      "'%.120s' has only one dimension in space: a profile, a section "
                      "or an unstructured mesh",
                      v->name);
-    return;
+    return FG_STATUS_OK;
   }
   for (int k = 0; k < 2; ++k) {
     const int dimension = v->dimension[position[k]];
@@ -123,6 +122,7 @@ static void find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
   grid->time = position[FG__NC_TIME];
   grid->level = position[FG__NC_LEVEL];
   fg__nc_set_index_axes(grid, file, v);
+  return FG_STATUS_OK;
 }
 
 const fg__nc_variable *fg__nc_axis_coordinate(const fg__nc_file *file,
@@ -208,6 +208,8 @@ static void check_units(fg__nc_grid *grid, const fg__nc_pair *pair,
   char of_v[FG__NC_TEXT];
   *quantity = velocity_units(pair->component[0], of_u, sizeof of_u);
   const fg__nc_quantity other = velocity_units(pair->component[1], of_v, sizeof of_v);
+  if (pair->polar.sense != 0)
+    return;
   if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s",
                      pair->component[0]->plain_name, of_u, pair->component[1]->plain_name,
@@ -238,14 +240,17 @@ static bool is_rotated(const fg__nc_grid *grid)
 
 /* Components along east and north are not components along the axes of a projection or of
  * a rotated pole, except in cylindrical projections such as Mercator's. Without the
- * projection they cannot be rotated. */
+ * projection they cannot be rotated; of a speed and a direction fg__nc_check_polar says
+ * so. */
 static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
-                             const fg__nc_variable *u, fg_frame frame)
+                             const fg__nc_pair *pair, fg_frame frame)
 {
+  const fg__nc_variable *u = pair->component[0];
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
   char mapping[FG__NC_TEXT];
-  if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !fg__nc_says_east(u)))
+  const bool east = pair->polar.sense != 0 || fg__nc_says_east(u);
+  if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
   if (grid->projection[0]) {
     grid->points_east = true;
@@ -254,7 +259,8 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_text(u, "grid_mapping", mapping, sizeof mapping);
   const fg__nc_variable *described = mapping[0] ? fg__nc_find(file, mapping) : NULL;
   if (!described || !fg__nc_text(described, "grid_mapping_name", mapping, sizeof mapping))
-    snprintf(mapping, sizeof mapping, "%s", is_rotated(grid) ? "rotated" : upright[0]);
+    snprintf(mapping, sizeof mapping, "%s",
+             is_rotated(grid) && pair->polar.sense == 0 ? "rotated" : upright[0]);
   for (size_t i = 0; i < sizeof upright / sizeof *upright; ++i)
     if (strcmp(mapping, upright[i]) == 0)
       return;
@@ -295,8 +301,9 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
   else if (wanted == FG_SCALE_AUTO && grid->scale != FG_SCALE_GEO && is_usable(grid) &&
            !grid->faces.used)
     status = prefer_positions(grid, file, pair);
-  if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO) && is_usable(grid))
-    check_directions(grid, file, pair->component[0], options->frame);
+  if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO || pair->polar.sense != 0) &&
+      is_usable(grid))
+    check_directions(grid, file, pair, options->frame);
   if (grid->scale == FG_SCALE_GEO &&
       (x->quantity == FG__NC_LENGTH || y->quantity == FG__NC_LENGTH))
     fg__set_unusable(grid->unusable,
@@ -345,7 +352,7 @@ static fg_status find_on_faces(fg__nc_grid *grid, const fg__nc_file *file,
   return is_usable(grid) ? settle_scale(grid, file, pair, velocity, options) : status;
 }
 
-fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+static fg_status find_grid(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_pair *pair, const fg_read_options *options)
 {
   *grid = (fg__nc_grid){.dimension = 2,
@@ -363,12 +370,12 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
   for (int k = 0; k < 2 && is_usable(grid); ++k)
     check_lengths(grid, file, pair->component[k]);
   if (is_usable(grid) && !grid->unstructured)
-    find_dimensions(grid, file, pair->component[0]);
+    status = find_dimensions(grid, file, pair->component[0]);
   fg__nc_quantity velocity;
-  if (is_usable(grid) && grid->unstructured)
+  if (status == FG_STATUS_OK && is_usable(grid) && grid->unstructured)
     check_units(grid, pair, &velocity);
-  if (!is_usable(grid) || grid->unstructured)
-    return FG_STATUS_OK;
+  if (status != FG_STATUS_OK || !is_usable(grid) || grid->unstructured)
+    return status;
   status = find_on_axes(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->off_axes)
     status = fg__nc_mesh_find(grid, file, pair, options);
@@ -377,6 +384,15 @@ fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
     status = find_on_faces(grid, file, pair, options);
   if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
     check_units(grid, pair, &velocity);
+  return status;
+}
+
+fg_status fg__nc_grid_find(fg__nc_grid *grid, const fg__nc_file *file,
+                           const fg__nc_pair *pair, const fg_read_options *options)
+{
+  const fg_status status = find_grid(grid, file, pair, options);
+  if (status == FG_STATUS_OK && is_usable(grid))
+    fg__nc_check_polar(grid, pair, options);
   return status;
 }
 

@@ -160,7 +160,7 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
       arrays.axis[k] = grid->axis[k].coordinate;
       arrays.period[k] = grid->axis[k].period;
       arrays.velocity[k] = read.velocity[k];
-      arrays.velocity_name[k] = pair->component[k]->name;
+      arrays.velocity_name[k] = fg__nc_component_name(pair, k);
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
@@ -319,7 +319,8 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 /* Texts that a vector of the inventory points to. */
 typedef struct vector_texts {
   char units[FG__NC_TEXT], plane[FG__NC_TEXT], chosen[FG__NC_TEXT];
-  char frame[3 * FG__NC_TEXT];        /* a projection, and its directions */
+  char polar[FG__NC_TEXT];
+  char frame[3 * FG__NC_TEXT + 4];    /* a projection, and its directions */
   char unusable[3 * FG__NC_TEXT + 2]; /* the reason and the hint */
 } vector_texts;
 
@@ -333,6 +334,17 @@ static const char *describe_frame(char *out, size_t size, const fg__nc_grid *gri
            grid->points_east ? "east and north, turned to the axes" : "along the axes",
            grid->projection);
   return out;
+}
+
+/* A mesh has it in its rule. */
+static const char *describe_polar(vector_texts *texts, const fg__nc_pair *pair,
+                                  const fg__nc_grid *grid)
+{
+  fg__nc_polar_words(texts->polar, sizeof texts->polar, pair);
+  snprintf(texts->frame, sizeof texts->frame, "%s (%s)",
+           grid->unstructured ? grid->unstructured->rule : "east and north",
+           texts->polar);
+  return texts->frame;
 }
 
 static void describe_axes(fg_inventory_vector *vector, const fg__nc_grid *grid)
@@ -364,13 +376,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
                                const fg__nc_pair *pair, const fg__nc_grid *grid,
                                const fg_read_options *options, bool reads)
 {
-  char text[FG__NC_TEXT];
   vector_texts texts;
   fg_read_defaults defaults;
   fg_status status = fg__nc_defaults(&defaults, file, pair, grid, options);
-  if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
-    fg__nc_text(pair->component[1], "units", text, sizeof text);
-  fg__nc_units(text, texts.units, sizeof texts.units);
+  fg__nc_velocity_units(texts.units, sizeof texts.units, pair);
   texts.chosen[0] = '\0';
   for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
     status = fg__nc_chosen_words(file, pair->component[0], of_time == 1, texts.chosen,
@@ -405,6 +414,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__nc_file *file,
     if (status == FG_STATUS_OK && reads)
       status = describe_samples(&vector, file, pair, grid);
   }
+  if (pair->polar.sense != 0 && !grid->mesh)
+    vector.frame = describe_polar(&texts, pair, grid);
   return status == FG_STATUS_OK ? add_vector(inventory, &vector, file, grid) : status;
 }
 

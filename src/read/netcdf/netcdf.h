@@ -4,6 +4,7 @@
 #define FG__NETCDF_H
 
 #include "read/format.h"
+#include "read/polar.h"
 #include "read/signature.h"
 
 #include <netcdf.h>
@@ -119,6 +120,11 @@ fg_status fg__nc_choose_samples(fg__nc_file *file, const char *text);
 fg_status fg__nc_chosen_words(const fg__nc_file *file, const fg__nc_variable *variable,
                               bool of_time, char *words, size_t size);
 
+/* Writes how one sample of a dimension that is neither time nor level is chosen, and of
+ * which. MEMORY, FILE_FORMAT. */
+fg_status fg__nc_offer_samples(char *out, size_t size, const fg__nc_file *file,
+                               int dimension);
+
 /* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
  * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
  * free(), also after a failure). MEMORY, FILE_FORMAT. */
@@ -180,23 +186,10 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 /* The seconds of a unit of time ("hours"); false for any other unit. */
 bool fg__nc_seconds(const char *units, double *out);
 
-/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when
- * units or calendar are unknown. */
-bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
-                 size_t size);
-
-/* Converts a date that a file has as text to the same form. Text is
- * "2010-07-16_12:00:00", with a space or T in place of the underscore; fractions of a
- * second and a Z at the end are dropped. False when it is no date. */
-bool fg__nc_date_of_text(const char *text, char *out, size_t size);
-
-/* Writes a time without a known reference date as a duration, "3 d", "1 d 6 h 30 min";
- * false where units are not of time, or the time is no whole number of seconds. */
-bool fg__nc_duration(double value, const char *units, char *out, size_t size);
-
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
   bool volume;                         /* the options name all three */
+  fg__polar polar;                     /* they are a speed and a direction */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* units of a speed, unlike a stress or a flux */
@@ -211,6 +204,24 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
 /* The third component of a pair: a variable of the same dimensions and units, with a
  * matching name; NULL: none. */
 const fg__nc_variable *fg__nc_third(const fg__nc_file *file, const fg__nc_pair *pair);
+
+/* polar.c. Whether a variable is a direction, and what it is measured in. */
+bool fg__nc_direction(fg__polar *out, const fg__nc_variable *v);
+
+/* Fills in components and polar where a variable is a direction and has a speed at its
+ * places, by their standard names; else false. */
+bool fg__nc_find_polar(fg__nc_pair *out, const fg__nc_file *file,
+                       const fg__nc_variable *direction);
+
+/* Makes a named pair of a speed and a direction, in either order, polar. ARGUMENT (a
+ * direction beside what is no speed). */
+fg_status fg__nc_settle_polar(fg__nc_pair *pair, const fg__nc_file *file);
+
+/* The name of a component; NULL: a speed and a direction become components without. */
+const char *fg__nc_component_name(const fg__nc_pair *pair, int k);
+
+/* What a polar pair is, and which rule says so. */
+void fg__nc_polar_words(char *out, size_t size, const fg__nc_pair *pair);
 
 /* Sets what a variable's attributes tell of it. */
 void fg__nc_classify(fg__nc_variable *variable);
@@ -291,11 +302,19 @@ typedef struct fg__nc_grid {
 void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
                          const fg__nc_variable *u, const fg__nc_variable *v);
 
+/* Makes a pair unusable whose components lie more than half a cell apart. */
+void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair);
+
 /* Makes the pair unusable where a variable is not numeric, or has more samples than a
  * file of this size can hold. */
 void fg__nc_check_variable(fg__nc_grid *grid, const fg__nc_variable *v);
 void fg__nc_check_storage(fg__nc_grid *grid, const fg__nc_file *file,
                           const fg__nc_variable *v);
+
+/* polar.c. Makes a polar pair unusable where its unit or north's direction is not
+ * known. */
+void fg__nc_check_polar(fg__nc_grid *grid, const fg__nc_pair *pair,
+                        const fg_read_options *options);
 
 /* axes.c. Reads a coordinate along an axis, makes it ascending, and finds its period. */
 fg_status fg__nc_axis_read(fg__nc_grid *grid, const fg__nc_file *file, int k,
@@ -328,6 +347,10 @@ bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
 
 /* Whether a name is one of those in a text with blanks between. */
 bool fg__nc_is_listed(const char *names, const char *name);
+
+/* Whether names are equal, or differ in a u of one where the other has a v ("depthu" and
+ * "depthv" of NEMO). */
+bool fg__nc_named_alike(const char *of_u, const char *of_v);
 
 /* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
  * dimensions and perhaps one for each time. One of the same file is preferred, then one
@@ -441,22 +464,14 @@ fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
 
-/* time/date_texts.c. The variable with a date as text for each index of a dimension, or
- * NULL. */
-const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension);
-
-/* The date at one index, "" where the text is no date. Then fg__nc_axis_values of all
- * dates, whose numbers are NaN; NULL where one of the texts is no date. */
-fg_status fg__nc_date_text(char *out, size_t size, const fg__nc_variable *texts,
-                           size_t index);
-fg_status fg__nc_date_values(fg_axis_value **out, char **text,
-                             const fg__nc_variable *texts, size_t count);
-
 /* The texts of a picture's caption. */
 typedef struct fg__nc_words {
   char title[FG__NC_TEXT], units[FG__NC_TEXT];
   char time[FG__NC_TEXT], level[FG__NC_TEXT]; /* "": none */
 } fg__nc_words;
+
+/* The units of a vector as on an axis label: those of a component that has some. */
+void fg__nc_velocity_units(char *out, size_t size, const fg__nc_pair *pair);
 
 fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,

@@ -232,43 +232,6 @@ static void files_without_vectors_say_so(void **state)
   fg_inventory_destroy(inventory);
 }
 
-static void refuse_direction(sample_file *f, const char *vars, const char *words,
-                             const char *hint)
-{
-  refuse_with(f, &(fg_read_options){.vars = vars}, FG_STATUS_UNSUPPORTED, words);
-  if (!strstr(fg_context_hint(f->context), hint))
-    fail_msg("\"%s\" lacks \"%s\"", fg_context_hint(f->context), hint);
-}
-
-/* A file of speeds and directions tells which components to write, and takes none of
- * them for one. */
-static void directions_are_no_components(void **state)
-{
-  static const struct {
-    const char *speed, *way, *hint;
-  } kinds[] = {
-      {"wind_speed", "wind_from_direction",
-       "u = -ws * sin(wd) and v = -ws * cos(wd) first"},
-      {"sea_water_speed", "sea_water_velocity_to_direction",
-       "u = ws * sin(wd) and v = ws * cos(wd) first"},
-  };
-  sample_file *f = *state;
-  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i) {
-    sample_begin(f, 0);
-    const int y = sample_axis(f, "lat", NY, Y, "degrees_north");
-    const int x = sample_axis(f, "lon", NX, X, "degrees_east");
-    const int all[2] = {y, x};
-    const int speed = sample_variable(f, "ws", NC_FLOAT, 2, all);
-    const int way = sample_variable(f, "wd", NC_FLOAT, 2, all);
-    sample_text(f, speed, "standard_name", kinds[i].speed);
-    sample_text(f, way, "standard_name", kinds[i].way);
-    sample_end(f);
-    refuse_direction(f, NULL, "no vectors found among its 4 variables", kinds[i].hint);
-    refuse_direction(f, "ws,wd", "'wd' is a direction", kinds[i].hint);
-    refuse_direction(f, "wd,ws", "'wd' is a direction", kinds[i].hint);
-  }
-}
-
 static void inventories_tell_what_reading_gives(void **state)
 {
   sample_file *f = *state;
@@ -469,7 +432,6 @@ int main(void)
       CASE(groups_are_searched),
       CASE(only_possible_requests_are_met),
       CASE(files_without_vectors_say_so),
-      CASE(directions_are_no_components),
       CASE(inventories_tell_what_reading_gives),
       CASE(inventories_tell_times_and_levels),
       CASE(the_usual_level_is_the_seas_surface),

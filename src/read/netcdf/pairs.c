@@ -17,8 +17,9 @@ enum {
   KEY_BYTES = FG__NC_NAME + 8,
   RANK_STANDARD_VELOCITY = 0,
   RANK_NAMED_VELOCITY = 1,
-  RANK_STANDARD_OTHER = 2,
-  RANK_NAMED_OTHER = 3
+  RANK_POLAR = 2, /* where the file has no components of a velocity */
+  RANK_STANDARD_OTHER = 3,
+  RANK_NAMED_OTHER = 4
 };
 
 typedef struct pattern {
@@ -57,8 +58,7 @@ static const char *const COMPONENT_PARTS[][2] = {
 static int split_tokens(const char *name, token out[MOST_TOKENS])
 {
   int count = 0;
-  size_t i = 0;
-  while (name[i] && count < MOST_TOKENS) {
+  for (size_t i = 0; name[i] && count < MOST_TOKENS;) {
     while (name[i] && !isalnum((unsigned char)name[i]))
       ++i;
     const size_t start = i;
@@ -287,7 +287,7 @@ static bool is_quality_name(const char *standard_name)
 
 static bool may_be_component(const fg__nc_file *file, const fg__nc_variable *v)
 {
-  return fg__nc_is_array(v) && !v->element &&
+  return v->file < file->component_files && fg__nc_is_array(v) && !v->element &&
          (v->rank >= 2 || fg__nc_unstructured_line(file, v));
 }
 
@@ -295,9 +295,8 @@ static bool list_patterns(pattern_list *list, const fg__nc_file *file)
 {
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    char text[FG__NC_TEXT];
-    char label[FG__NC_TEXT];
-    if (v->file >= file->component_files || !may_be_component(file, v))
+    char text[FG__NC_TEXT], label[FG__NC_TEXT];
+    if (!may_be_component(file, v))
       continue;
     fg__nc_text(v, "units", text, sizeof text);
     const fg__nc_quantity quantity = fg__nc_units(text, label, sizeof label);
@@ -320,8 +319,7 @@ static bool list_patterns(pattern_list *list, const fg__nc_file *file)
 
 static int compare_patterns(const void *left, const void *right)
 {
-  const pattern *a = left;
-  const pattern *b = right;
+  const pattern *a = left, *b = right;
   const int by_key = strcmp(a->key, b->key);
   if (by_key != 0)
     return by_key;
@@ -357,6 +355,16 @@ typedef struct pair_list {
   size_t count, capacity;
 } pair_list;
 
+static bool append(pair_list *pairs, const fg__nc_pair *pair)
+{
+  void *grown = pairs->entry;
+  if (!fg__grow(&grown, &pairs->capacity, pairs->count + 1, sizeof *pair))
+    return false;
+  pairs->entry = grown;
+  pairs->entry[pairs->count++] = *pair;
+  return true;
+}
+
 static bool add_pair(pair_list *pairs, const fg__nc_file *file, const pattern *x,
                      const pattern *y)
 {
@@ -376,12 +384,7 @@ static bool add_pair(pair_list *pairs, const fg__nc_file *file, const pattern *x
         pairs->entry[i] = pair;
       return true;
     }
-  void *grown = pairs->entry;
-  if (!fg__grow(&grown, &pairs->capacity, pairs->count + 1, sizeof pair))
-    return false;
-  pairs->entry = grown;
-  pairs->entry[pairs->count++] = pair;
-  return true;
+  return append(pairs, &pair);
 }
 
 /* Pairs the patterns first ... end - 1, which are equal. apart: components of two files
@@ -443,19 +446,27 @@ static bool add_vectors(pair_list *pairs, const fg__nc_file *file)
                               .found_by = "its last dimension",
                               .rank = velocity ? RANK_NAMED_VELOCITY : RANK_NAMED_OTHER,
                               .is_velocity = velocity};
-    void *grown = pairs->entry;
-    if (!fg__grow(&grown, &pairs->capacity, pairs->count + 1, sizeof pair))
+    if (!append(pairs, &pair))
       return false;
-    pairs->entry = grown;
-    pairs->entry[pairs->count++] = pair;
+  }
+  return true;
+}
+
+/* Speeds with their directions. */
+static bool add_polar(pair_list *pairs, const fg__nc_file *file)
+{
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    fg__nc_pair pair = {.found_by = "standard_name", .rank = RANK_POLAR};
+    if (may_be_component(file, &file->variables[i]) &&
+        fg__nc_find_polar(&pair, file, &file->variables[i]) && !append(pairs, &pair))
+      return false;
   }
   return true;
 }
 
 static int compare_pairs(const void *left, const void *right)
 {
-  const fg__nc_pair *a = left;
-  const fg__nc_pair *b = right;
+  const fg__nc_pair *a = left, *b = right;
   if (a->rank != b->rank)
     return a->rank - b->rank;
   return a->component[0] < b->component[0] ? -1 : a->component[0] > b->component[0];
@@ -473,14 +484,14 @@ fg_status fg__nc_pairs(fg__nc_pair **out, size_t *count, const fg__nc_file *file
   if (pairs.count == 0 && file->component_files > 1)
     memory = memory && pair_groups(&pairs, file, &list, false);
   free(list.entry);
-  memory = memory && add_vectors(&pairs, file);
+  memory = memory && add_vectors(&pairs, file) && add_polar(&pairs, file);
   if (!memory) {
     free(pairs.entry);
     return fg__fail_memory(file->context, "pairs of variables", 0);
   }
-  for (size_t i = 0; i < pairs.count; ++i)
-    if (!pairs.entry[i].component[0]->element)
-      pairs.entry[i].component[2] = fg__nc_third(file, &pairs.entry[i]);
+  for (fg__nc_pair *p = pairs.entry; p && p < pairs.entry + pairs.count; ++p)
+    if (!p->component[0]->element && p->polar.sense == 0)
+      p->component[2] = fg__nc_third(file, p);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;

@@ -41,6 +41,14 @@ bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b)
                     strcmp(of[a].name, of[b].name) == 0);
 }
 
+bool fg__nc_named_alike(const char *of_u, const char *of_v)
+{
+  for (; *of_u && *of_v; ++of_u, ++of_v)
+    if (*of_u != *of_v && !(*of_u == 'u' && *of_v == 'v'))
+      return false;
+  return *of_u == *of_v;
+}
+
 /* Time may be the first dimension: WRF repeats the coordinates for every time. */
 static bool lies_in_plane(const fg__nc_file *file, const fg__nc_variable *v, int x, int y)
 {

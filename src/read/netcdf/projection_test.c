@@ -28,6 +28,7 @@ typedef struct plane_file {
   bool unmapped; /* no grid mapping */
   bool alike;    /* all positions are one, as in idealised runs */
   bool unnamed;  /* no standard names: long names where they are along east and north */
+  bool polar;    /* speed and direction from where the wind comes; of `east` */
 } plane_file;
 
 /* A wind of 3 along x and 4 along y everywhere, or its components along east and
@@ -47,6 +48,10 @@ static void write_plane(sample_file *f, const plane_file *how)
     const double turn = (longitude[n] - MERIDIAN) * RADIANS; /* angle of east from x */
     u[n] = how->east ? 3.0 * cos(turn) + 4.0 * sin(turn) : 3.0;
     v[n] = how->east ? 4.0 * cos(turn) - 3.0 * sin(turn) : 4.0;
+    if (how->polar) {
+      v[n] = atan2(-u[n], -v[n]) / RADIANS;
+      u[n] = 5.0;
+    }
     longitude[n] = how->alike ? MERIDIAN : longitude[n] + how->wrong;
     latitude[n] = how->alike ? 45.0 : latitude[n];
   }
@@ -61,13 +66,15 @@ static void write_plane(sample_file *f, const plane_file *how)
   sample_number(f, crs, "scale_factor_at_projection_origin", NC_DOUBLE, 1.0);
   sample_number(f, crs, "earth_radius", NC_DOUBLE, EARTH);
   for (int k = 0; k < 2; ++k) {
-    const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 2, plane);
-    static const char *const names[] = {"x_wind", "y_wind", "eastward_wind",
-                                        "northward_wind"};
+    static const char *const names[] = {"u", "v", "ws", "wd"};
+    static const char *const standard[] = {"x_wind",        "y_wind",
+                                           "eastward_wind", "northward_wind",
+                                           "wind_speed",    "wind_from_direction"};
+    const int id = sample_variable(f, names[how->polar ? 2 + k : k], NC_FLOAT, 2, plane);
     if (!how->unmapped)
       sample_text(f, id, "grid_mapping", "crs");
     if (!how->unnamed)
-      sample_text(f, id, "standard_name", names[2 * how->east + k]);
+      sample_text(f, id, "standard_name", standard[2 * (how->east + how->polar) + k]);
     else if (how->east)
       sample_text(f, id, "long_name", k == 0 ? "Eastward wind" : "Northward wind");
     sample_put(f, id, k == 0 ? u : v);
@@ -87,6 +94,7 @@ static void projections_come_with_the_field(void **state)
       {.unit = 1000.0, .has_positions = true},
       {.unit = 1.0, .east = true},
       {.unit = 1.0, .east = true, .unnamed = true},
+      {.unit = 1.0, .east = true, .polar = true},
       {.unit = 1000.0, .offset = 70000.0, .east = true, .has_positions = true}};
   sample_file *f = *state;
   for (size_t n = 0; n < sizeof files / sizeof *files; ++n) {
@@ -126,12 +134,13 @@ static void positions_go_before_a_wrong_projection(void **state)
 static void positions_are_the_place_without_a_projection(void **state)
 {
   sample_file *f = *state;
-  for (int n = 0; n < 4; ++n) {
+  for (int n = 0; n < 5; ++n) {
     write_plane(f, &(plane_file){.unit = 1.0,
                                  .has_positions = true,
                                  .unmapped = true,
-                                 .east = n & 1,
-                                 .unnamed = n & 2});
+                                 .east = n & 1 || n == 4,
+                                 .unnamed = n & 2,
+                                 .polar = n == 4});
     fg_field *field = read_with(f, NULL);
     const fg_field_arrays *a = fg_field_contents(field);
     size_t found = 0;

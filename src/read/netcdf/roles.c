@@ -226,11 +226,22 @@ static bool is_named(const fg__nc_file *file, const fg__nc_variable *variable,
   return false;
 }
 
-static bool has_one_value(const fg__nc_file *file, const fg__nc_variable *v)
+static bool has_dimension(const fg__nc_variable *v, int dimension)
+{
+  int k = 0;
+  while (k < v->rank && v->dimension[k] != dimension)
+    ++k;
+  return k < v->rank;
+}
+
+/* Whether a variable is one number that lies along no dimension of another. */
+static bool is_single(const fg__nc_file *file, const fg__nc_variable *v,
+                      const fg__nc_variable *variable)
 {
   return v->type >= NC_BYTE && v->type <= NC_UINT64 && v->type != NC_CHAR &&
          (v->rank == 0 ||
-          (v->rank == 1 && file->dimensions[v->dimension[0]].length == 1));
+          (v->rank == 1 && file->dimensions[v->dimension[0]].length == 1 &&
+           !has_dimension(variable, v->dimension[0])));
 }
 
 const fg__nc_variable *fg__nc_single_coordinate(const fg__nc_file *file,
@@ -240,7 +251,7 @@ const fg__nc_variable *fg__nc_single_coordinate(const fg__nc_file *file,
   char text[FG__NC_TEXT], label[FG__NC_TEXT];
   for (size_t i = 0; i < file->variable_count; ++i) {
     const fg__nc_variable *v = &file->variables[i];
-    if (v->file != variable->file || !has_one_value(file, v) ||
+    if (v->file != variable->file || !is_single(file, v, variable) ||
         !is_named(file, variable, v) || role_of_attributes(v) != role)
       continue;
     fg__nc_text(v, "units", text, sizeof text);
@@ -256,14 +267,6 @@ typedef struct claim {
   fg__nc_role role;
   int strength; /* 2: by attributes; 1: by name */
 } claim;
-
-static bool has_dimension(const fg__nc_variable *v, int dimension)
-{
-  int k = 0;
-  while (k < v->rank && v->dimension[k] != dimension)
-    ++k;
-  return k < v->rank;
-}
 
 /* Whether a dimension is one of a swath: longitudes lie along it and another of the
  * variable's, and times only beside them. */

@@ -179,6 +179,8 @@ fg_status fg__nc_samples_read(fg__nc_samples *out, const fg__nc_file *file,
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
     status = read_component(out, &from, k);
+  if (status == FG_STATUS_OK)
+    fg__polar_turn_all(out->velocity, row_size(grid) * (size_t)rows->held, &pair->polar);
   if (status == FG_STATUS_OK && grid->faces.used)
     close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
   if (status == FG_STATUS_OK && mask)

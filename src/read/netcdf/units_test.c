@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 static void units_are_classified_and_written_shortly(void **state)
 {

@@ -1,6 +1,6 @@
 /* Texts of captions: the vector's title, its time and its level. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -307,11 +307,19 @@ fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file
   return status;
 }
 
+void fg__nc_velocity_units(char *out, size_t size, const fg__nc_pair *pair)
+{
+  char text[FG__NC_TEXT];
+  const bool known = fg__nc_text(pair->component[0], "units", text, sizeof text);
+  if (!known && pair->polar.sense == 0)
+    fg__nc_text(pair->component[1], "units", text, sizeof text);
+  fg__nc_units(text, out, size);
+}
+
 fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
                             const fg__nc_pair *pair, const fg__nc_grid *grid,
                             const fg_read_options *options)
 {
-  char text[FG__NC_TEXT];
   fg_status status = FG_STATUS_OK;
   *out = (fg__nc_words){{0}, {0}, {0}, {0}};
   if (grid->time >= 0 || grid->time_variable)
@@ -330,8 +338,6 @@ fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
   if (status != FG_STATUS_OK)
     return status;
   fg__nc_title(pair, grid->dimension, out->title, sizeof out->title);
-  if (!fg__nc_text(pair->component[0], "units", text, sizeof text))
-    fg__nc_text(pair->component[1], "units", text, sizeof text);
-  fg__nc_units(text, out->units, sizeof out->units);
+  fg__nc_velocity_units(out->units, sizeof out->units, pair);
   return fg__nc_status(file, status);
 }

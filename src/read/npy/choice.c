@@ -7,12 +7,26 @@
 #include "read/npy/npy.h"
 #include "read/table/table.h"
 
-/* Names of arrays are chosen from as those of a table's columns are. */
+/* Whether the arrays have the names that numpy.savez gives those without: arr_0, arr_1.
+ */
+static bool is_nameless(const fg__npy_file *file)
+{
+  bool nameless = true;
+  for (size_t i = 0; i < file->count && nameless; ++i) {
+    char name[FG__NPY_NAME];
+    snprintf(name, sizeof name, "arr_%zu", i);
+    nameless = strcmp(file->array[i].name, name) == 0;
+  }
+  return nameless;
+}
+
+/* Names of arrays are chosen from as those of a table's columns are: four or six without
+ * names are places and velocity. */
 static fg_status make_table(fg__table *out, fg__npy_file *file)
 {
   *out = (fg__table){.context = file->context,
                      .path = file->path,
-                     .named = true,
+                     .named = !is_nameless(file) || file->count < 4,
                      .placeless = true,
                      .columns = (int)file->count};
   out->column = fg__allocate(file->count, sizeof *out->column);
@@ -118,21 +132,22 @@ static void take_places(fg__npy_choice *out, fg__npy_file *file,
 
 static fg_status fail_polar(const fg__npy_file *file, const fg__table_vector *named)
 {
-  fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-           "%s: %s and %s are a speed and a direction, which are read from tables only",
-           file->path, file->array[named->velocity[0]].name,
-           file->array[named->velocity[1]].name);
+  fg__fail(
+      file->context, FG_STATUS_UNSUPPORTED,
+      "%s: %s and %s are a speed and a direction, which are not read from NumPy files",
+      file->path, file->array[named->velocity[0]].name,
+      file->array[named->velocity[1]].name);
   fg__hint(file->context,
            "save u = %sspeed * sin(direction) and v = %sspeed * "
            "cos(direction)",
-           named->from ? "-" : "", named->from ? "-" : "");
+           named->polar.sense < 0 ? "-" : "", named->polar.sense < 0 ? "-" : "");
   return FG_STATUS_UNSUPPORTED;
 }
 
 static fg_status choose_pair(fg__npy_choice *out, fg__npy_file *file,
                              const fg__table_vector *named)
 {
-  if (named->polar)
+  if (named->polar.sense != 0)
     return fail_polar(file, named);
   *out = (fg__npy_choice){
       .component_axis = -1, .dimension = named->dimension, .found_by = named->found_by};
@@ -151,6 +166,8 @@ static fg_status choose(fg__npy_choice *out, fg__npy_file *file, const fg__table
 {
   fg__table_vector named[FG__TABLE_VECTORS];
   const bool one = options->vars && !strchr(options->vars, ',');
+  if (!options->vars && !table->named && file->count != 4 && file->count != 6)
+    return fail_none(file);
   if (!one && (options->vars || fg__table_vectors(named, table) > 0)) {
     fg_status status = fg__table_choose(named, table, options);
     return status == FG_STATUS_OK ? choose_pair(out, file, named) : status;

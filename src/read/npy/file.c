@@ -1,3 +1,5 @@
+#include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,10 +105,25 @@ static void take_bytes(void *out, const fg__npy_array *array, size_t index)
     to[i] = from[array->item - 1 - i];
 }
 
+/* IEEE 754's binary16: a sign, 5 bits of exponent, 10 of the fraction. */
+static double half_value(uint16_t bits)
+{
+  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+  const double size = exponent == 31  ? fraction ? (double)NAN : HUGE_VAL
+                      : exponent == 0 ? ldexp(fraction, -24)
+                                      : ldexp(1024 + fraction, exponent - 25);
+  return bits >> 15 ? -size : size;
+}
+
 static double take_float(const fg__npy_array *array, size_t index)
 {
+  uint16_t half = 0;
   float number = 0.0f;
   double precise = 0.0;
+  if (array->item == sizeof half) {
+    take_bytes(&half, array, index);
+    return half_value(half);
+  }
   if (array->item == sizeof number) {
     take_bytes(&number, array, index);
     return (double)number;

@@ -107,13 +107,13 @@ static bool find_type(fg__npy_array *out, const char *descr)
     const char *type;
     fg__npy_kind kind;
     size_t item;
-  } known[] = {{"f4", FG__NPY_FLOAT, 4},    {"f8", FG__NPY_FLOAT, 8},
-               {"i1", FG__NPY_SIGNED, 1},   {"i2", FG__NPY_SIGNED, 2},
-               {"i4", FG__NPY_SIGNED, 4},   {"i8", FG__NPY_SIGNED, 8},
-               {"u1", FG__NPY_UNSIGNED, 1}, {"u2", FG__NPY_UNSIGNED, 2},
-               {"u4", FG__NPY_UNSIGNED, 4}, {"u8", FG__NPY_UNSIGNED, 8},
-               {"b1", FG__NPY_BOOL, 1},     {"c8", FG__NPY_COMPLEX, 4},
-               {"c16", FG__NPY_COMPLEX, 8}};
+  } known[] = {{"f2", FG__NPY_FLOAT, 2},    {"f4", FG__NPY_FLOAT, 4},
+               {"f8", FG__NPY_FLOAT, 8},    {"i1", FG__NPY_SIGNED, 1},
+               {"i2", FG__NPY_SIGNED, 2},   {"i4", FG__NPY_SIGNED, 4},
+               {"i8", FG__NPY_SIGNED, 8},   {"u1", FG__NPY_UNSIGNED, 1},
+               {"u2", FG__NPY_UNSIGNED, 2}, {"u4", FG__NPY_UNSIGNED, 4},
+               {"u8", FG__NPY_UNSIGNED, 8}, {"b1", FG__NPY_BOOL, 1},
+               {"c8", FG__NPY_COMPLEX, 4},  {"c16", FG__NPY_COMPLEX, 8}};
   const char order = *descr;
   if (!order || !strchr("<>|=", order))
     return false;

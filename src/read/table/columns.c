@@ -9,11 +9,11 @@
 
 /* Names of coordinates, parted by |. */
 static const char *const PLACES[3] = {
-    "|x|xc|x_coordinate|x_coord|x_position|x_pos|pos_x|position_x|px|points_0|"
+    "|x|xc|x_coordinate|x_coord|x_position|x_pos|xpos|pos_x|position_x|px|points_0|"
     "coordinates_0|easting|x_0|",
-    "|y|yc|y_coordinate|y_coord|y_position|y_pos|pos_y|position_y|py|points_1|"
+    "|y|yc|y_coordinate|y_coord|y_position|y_pos|ypos|pos_y|position_y|py|points_1|"
     "coordinates_1|northing|y_0|",
-    "|z|zc|z_coordinate|z_coord|z_position|z_pos|pos_z|position_z|pz|points_2|"
+    "|z|zc|z_coordinate|z_coord|z_position|z_pos|zpos|pos_z|position_z|pz|points_2|"
     "coordinates_2|altitude|z_0|"};
 static const char *const GLOBE[2] = {
     "|lon|long|longitude|lng|nav_lon|xlong|glon|lon_deg|longitude_deg|lon_e|"
@@ -29,7 +29,8 @@ static const char *const VELOCITY_NAMES[][3] = {
 static const char *const WORDS[][3] = {
     {"u", "v", "w"},         {"x", "y", "z"},
     {"east", "north", "up"}, {"zonal", "meridional", "vertical"},
-    {"0", "1", "2"},         {"e", "n", "u"}};
+    {"0", "1", "2"},         {"e", "n", "u"},
+    {"i", "j", "k"}};
 
 /* Words of names that are no velocity. */
 static const char *const OTHER[] = {
@@ -55,6 +56,18 @@ static int find_listed(const fg__table *table, const char *list)
     if (is_one_of(list, table->column[c].plain))
       return c;
   return -1;
+}
+
+/* A coordinate by its listed names, or one with its unit: x_mm, x_px. */
+static int find_place(const fg__table *table, int axis)
+{
+  int found = find_listed(table, PLACES[axis]);
+  for (int c = 0; c < table->columns && found < 0; ++c) {
+    const char *plain = table->column[c].plain;
+    if (plain[0] == "xyz"[axis] && plain[1] == '_' && fg__table_is_unit(plain + 2))
+      found = c;
+  }
+  return found;
 }
 
 int fg__table_find_plain(const fg__table *table, const char *plain)
@@ -83,12 +96,12 @@ static bool is_other(const char *plain)
 }
 
 /* Whether a word at `at` may be a component's: a long one anywhere, a letter at the
- * beginning or end of a part of the name. */
+ * beginning or end of a part of a longer name. */
 static bool may_stand(const char *plain, const char *at, size_t length)
 {
   const bool starts = at == plain || at[-1] == '_';
   const bool ends = at[length] == '\0' || at[length] == '_';
-  return length > 1 || starts || ends;
+  return length > 1 || (plain[1] && (starts || ends));
 }
 
 /* The column named like `plain` but for one word. */
@@ -106,9 +119,9 @@ void fg__table_places(fg__table_vector *out, const fg__table *table)
 {
   const int lon = find_listed(table, GLOBE[0]), lat = find_listed(table, GLOBE[1]);
   out->geographic = lon >= 0 && lat >= 0;
-  out->position[0] = out->geographic ? lon : find_listed(table, PLACES[0]);
-  out->position[1] = out->geographic ? lat : find_listed(table, PLACES[1]);
-  out->position[2] = out->geographic ? -1 : find_listed(table, PLACES[2]);
+  out->position[0] = out->geographic ? lon : find_place(table, 0);
+  out->position[1] = out->geographic ? lat : find_place(table, 1);
+  out->position[2] = out->geographic ? -1 : find_place(table, 2);
 }
 
 /* Finds the columns of the time and level of rows, and those that mark rows without a

@@ -13,11 +13,14 @@
 enum { LOOKED_AT = 8 };
 
 /* Copies text of any bytes as UTF-8: what is none is Latin-1, as programs on Windows
- * write ° and µ. Control characters become blanks. */
+ * write ° and µ. Control characters become blanks,
+ * blanks at its ends go. */
 static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
 {
   char raw[FG__TABLE_NAME];
   size_t n = 0;
+  for (; size > 0 && *text == ' '; --size)
+    ++text;
   if (size >= sizeof raw)
     size = sizeof raw - 1;
   memcpy(raw, text, size);
@@ -53,8 +56,7 @@ static void simplify(char out[FG__TABLE_NAME], const char *name)
   out[n] = '\0';
 }
 
-/* What Insight and others write without brackets: "X mm", "U m/s". */
-static bool is_unit(const char *text)
+bool fg__table_is_unit(const char *text)
 {
   static const char *const known[] = {"m",   "mm",  "cm",    "km",     "um",      "px",
                                       "deg", "pix", "pixel", "pixels", "degrees", "kn"};
@@ -64,10 +66,17 @@ static bool is_unit(const char *text)
   return strchr(text, '/') != NULL;
 }
 
+/* Whether a bracket holds the index of a component, as STAR-CCM+'s Velocity[i] (m/s). */
+static bool is_index(const char *text, size_t size)
+{
+  return size > 2 && text[0] == '[' && text[1] && strchr("ijkIJK012", text[1]) &&
+         text[2] == ']';
+}
+
 void fg__table_name(fg__table_column *column, const char *text, size_t size)
 {
   size_t open = 0, end;
-  while (open < size && !strchr("[(", text[open]))
+  while (open < size && (!strchr("[(", text[open]) || is_index(text + open, size - open)))
     ++open;
   for (end = open; end < size && !strchr("])", text[end]);)
     ++end;
@@ -80,7 +89,7 @@ void fg__table_name(fg__table_column *column, const char *text, size_t size)
   } else {
     copy_text(column->name, text, size);
     char *blank = strchr(column->name, ' ');
-    if (blank && is_unit(blank + 1)) {
+    if (blank && fg__table_is_unit(blank + 1)) {
       copy_text(column->units, blank + 1, strlen(blank + 1));
       *blank = '\0';
     }

@@ -111,8 +111,10 @@ bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t 
 
 static bool is_missing(const fg__table_field *field)
 {
-  static const char *const words[] = {"nan", "na",  "n/a",  "null", "none",   "-", "--",
-                                      "---", "nil", "-nan", "+nan", "masked", "m", "mm"};
+  static const char *const words[] = {
+      "nan",  "na",        "n/a",      "null",    "none",     "-",      "--",
+      "---",  "nil",       "-nan",     "+nan",    "masked",   "m",      "mm",
+      "#n/a", "-nan(ind)", "nan(ind)", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind"};
   if (field->size == 0)
     return true;
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)

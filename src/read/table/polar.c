@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/angle.h"
 #include "read/table/table.h"
 
 /* Where a name's word for a direction is; NULL: none. */
@@ -55,10 +56,15 @@ int fg__table_speed_of(const fg__table *table, int direction)
 void fg__table_set_polar(fg__table_vector *vector, const fg__table *table)
 {
   const char *plain = table->column[vector->velocity[1]].plain;
+  const char *units = table->column[vector->velocity[1]].units;
   const char *at = find_direction(plain);
-  vector->polar = true;
-  vector->from = is_synoptic(plain) || strstr(plain, "wind") != NULL || plain[0] == 'w' ||
-                 fg__table_has_word(plain, "from") || (at && strncmp(at, "drct", 4) == 0);
+  const bool from = is_synoptic(plain) || strstr(plain, "wind") != NULL ||
+                    plain[0] == 'w' || fg__table_has_word(plain, "from") ||
+                    (at && strncmp(at, "drct", 4) == 0);
+  vector->polar.sense = from ? -1 : 1;
+  vector->polar.unit = units[0]                           ? fg__polar_unit(units)
+                       : fg__table_has_word(plain, "rad") ? 1.0
+                                                          : FG__RADIANS;
 }
 
 /* A direction that has this speed; -1: none. */

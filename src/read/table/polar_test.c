@@ -85,6 +85,25 @@ static void units_are_those_of_the_speed(void **state)
   check_turned(field, -1.0);
 }
 
+/* A direction's unit is the one in brackets or in its name. */
+static void directions_may_be_in_radians(void **state)
+{
+  static const char *const same[][2] = {
+      {"lon,lat,wind_speed,wind_dir [rad],t2", NULL},
+      {"lon,lat,wind speed (m/s),wind direction (Radians),t2", NULL},
+      {"lon,lat,wind_speed,wind_dir_rad,t2", "wind_speed,wind_dir_rad"},
+  };
+  char text[2048];
+  for (size_t i = 0; i < sizeof same / sizeof *same; ++i) {
+    size_t used = (size_t)snprintf(text, sizeof text, "%s\n", same[i][0]);
+    for (int n = 0; n < NX * NY; ++n)
+      used += (size_t)snprintf(text + used, sizeof text - used, "%d,%d,%g,%.15g,280\n",
+                               10 + n % NX, 50 + n / NX, speed_at(n % NX, n / NX),
+                               degrees_at(n % NX, n / NX) * acos(-1.0) / 180.0);
+    check_turned(read_with(*state, text, &(fg_read_options){.vars = same[i][1]}), -1.0);
+  }
+}
+
 /* Two directions, or dd without ff, are components as they are named. */
 static void other_pairs_are_components(void **state)
 {
@@ -145,6 +164,9 @@ static void halves_are_refused(void **state)
        "speed and direction are a speed and a direction, which are read with longitude "
        "and latitude only",
        "components u and v first"},
+      {"lon,lat,wind_speed,wind_dir (10s deg),t2", "wind_speed,wind_dir",
+       FG_STATUS_UNSUPPORTED,
+       "the direction wind_dir is in '10s deg', not in degrees or radians", ""},
   };
   char text[2048];
   for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {
@@ -167,6 +189,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(named_speeds_and_directions_are_turned),
       cmocka_unit_test(units_are_those_of_the_speed),
+      cmocka_unit_test(directions_may_be_in_radians),
       cmocka_unit_test(other_pairs_are_components),
       cmocka_unit_test(codes_are_no_directions),
       cmocka_unit_test(halves_are_refused),

@@ -1,4 +1,5 @@
 /* The rows of a table as points. */
+#include <ctype.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +18,6 @@ enum {
   MASK = 8,
   TIME = 9,
   LEVEL = 10,
-  MOST_DEGREES = 720, /* of a direction; two turns */
   STOP_EVERY = 1 << 16
 };
 
@@ -73,6 +73,14 @@ static fg_status fail_columns(const row_reader *r, const fg__table_line *line, i
                   "%s: line %d has %s%d columns, not %d as others", r->table->path,
                   line->number, count > columns ? "more than " : "",
                   count > columns ? columns : count, columns);
+}
+
+/* A heading in brackets: after it come other things than points, as CFD-Post's faces. */
+static bool is_heading(const fg__table_line *line)
+{
+  return line->size > 2 && line->text[0] == '[' &&
+         isalpha((unsigned char)line->text[1]) &&
+         memchr(line->text, ']', line->size) != NULL;
 }
 
 /* What could be no row whatever it holds. */
@@ -154,18 +162,6 @@ static bool is_valid(const row_reader *r)
   return r->vector->mask < 0 || r->value[MASK] > 0.0;
 }
 
-/* Speed and direction, in degrees clockwise from north, as east and north. A calm has no
- * direction. Codes for a missing or variable one, -999 or 990, are no angles. */
-static void turn_polar(row_reader *r)
-{
-  const double speed = r->value[VELOCITY], degrees = r->value[VELOCITY + 1];
-  const double angle = degrees * (3.14159265358979323846 / 180.0);
-  const double along = r->vector->from ? -speed : speed;
-  const bool known = speed >= 0.0 && fabs(degrees) <= MOST_DEGREES;
-  r->value[VELOCITY] = speed == 0.0 ? 0.0 : known ? along * sin(angle) : (double)NAN;
-  r->value[VELOCITY + 1] = speed == 0.0 ? 0.0 : known ? along * cos(angle) : (double)NAN;
-}
-
 typedef struct growth {
   size_t position[3], velocity[3], time, level, record;
 } growth;
@@ -180,8 +176,12 @@ static fg_status add_row(fg__scatter *out, growth *g, row_reader *r, int line)
   for (int k = 0; k < out->dimension && k < 3; ++k)
     if (isnan(r->value[k]))
       return FG_STATUS_OK;
-  if (r->vector->polar)
-    turn_polar(r);
+  double *pair = &r->value[VELOCITY];
+  if (r->vector->polar.sense != 0) {
+    if (pair[0] == 0.0) /* a calm has no direction */
+      pair[1] = 0.0;
+    fg__polar_turn(pair, &r->vector->polar);
+  }
   const bool valid = is_valid(r);
   const size_t n = out->count;
   bool grown = true;
@@ -231,12 +231,19 @@ fg_status fg__table_rows(fg__scatter *out, const fg__table *table,
                        .dimension = vector->dimension,
                        .records = "line",
                        .geographic = vector->geographic && vector->dimension == 2};
+  if (vector->polar.sense != 0 && vector->polar.unit == 0.0)
+    return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
+                    "%s: the direction %s is in '%s', not in degrees or radians",
+                    table->path, table->column[vector->velocity[1]].name,
+                    table->column[vector->velocity[1]].units);
   if (!fg__number_locale_begin(&locale))
     return fg__fail_memory(table->context, "a locale", 1);
   fg_status status = set_roles(&r);
   while (status == FG_STATUS_OK && fg__table_next(&line, &cursor)) {
     if (fg__table_is_blank(&line) || fg__table_is_comment(&line))
       continue;
+    if (is_heading(&line))
+      break;
     if (line.number % STOP_EVERY == 0)
       status = fg__check_stop(table->context);
     if (status == FG_STATUS_OK)

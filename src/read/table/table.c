@@ -1,6 +1,7 @@
 /* Tables as a format. */
 #include "read/table/table.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +13,8 @@
 
 enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 
-/* Text, but no markup: the last format that is tried. */
+/* Text, but no markup: the last format that is tried. A word in brackets is a heading, as
+ * CFD-Post's [Name]; an array of JSON has none behind its bracket. */
 static bool is_text(const unsigned char *bytes, size_t size)
 {
   size_t first = 0, shown = 0;
@@ -22,7 +24,8 @@ static bool is_text(const unsigned char *bytes, size_t size)
     if ((bytes[i] < ' ' && !strchr("\t\n\r\f", bytes[i])) || bytes[i] == 0 ||
         bytes[i] == 0x7f)
       return false;
-    if (shown == 0 && strchr("<{[", bytes[i]))
+    if (shown == 0 && (bytes[i] == '[' ? i + 1 == size || !isalpha(bytes[i + 1])
+                                       : strchr("<{", bytes[i]) != NULL))
       return false;
     shown += bytes[i] > ' ';
   }
@@ -64,7 +67,7 @@ static fg_field_arrays words_of(const fg__table *table, const fg__table_vector *
     words.scale = FG_SCALE_PLAIN;
   for (int k = 0; k < vector->dimension && k < 3; ++k) {
     const fg__table_column *place = &table->column[vector->position[k]];
-    if (!vector->polar)
+    if (vector->polar.sense == 0)
       words.velocity_name[k] = table->column[vector->velocity[k]].name;
     words.axis_name[k] = place->name;
     words.axis_units[k] = place->units;

@@ -5,6 +5,7 @@
 #define FG__TABLE_H
 
 #include "read/points/points.h"
+#include "read/polar.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -95,8 +96,11 @@ fg_status fg__table_find_layout(fg__table *table, const fg__source *source);
 /* header.c. Names and units of the columns, from what stands before the data. */
 fg_status fg__table_find_names(fg__table *table, const fg__source *source);
 
-/* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm". */
+/* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm", "U[i] (m/s)". */
 void fg__table_name(fg__table_column *column, const char *text, size_t size);
+
+/* Whether a word is a unit that Insight and others write without brackets: "X mm". */
+bool fg__table_is_unit(const char *text);
 
 /* Columns of a vector and what else a row has; -1: none. */
 typedef struct fg__table_vector {
@@ -108,8 +112,7 @@ typedef struct fg__table_vector {
   int time;  /* when the row was measured */
   int level; /* in 2D: at which height or depth */
   bool geographic;
-  bool polar; /* velocity is speed and direction */
-  bool from;  /* the direction is where it comes from */
+  fg__polar polar; /* velocity is speed and direction */
   const char *found_by;
 } fg__table_vector;
 

@@ -73,6 +73,34 @@ static void components_and_mesh_in_three_files(void **state)
   unlink(third.path);
 }
 
+/* Components whose files have nodes each, which have to be the same. */
+static void components_at_other_nodes_are_refused(void **state)
+{
+  sample_file *f = *state;
+  for (int far = 0; far < 2; ++far) {
+    example_mesh m = mesh_made(0, true);
+    double *const node[2] = {m.node[0], m.node[1]};
+    sample_begin(f, NC_NETCDF4);
+    sample_file file[2] = {*f, file_beside(f, "second.nc")};
+    for (int k = 0; k < 2; ++k) {
+      for (int n = 0; n < NODES && k == 1; ++n)
+        m.node[0][n] += far ? 3.0 : 360.0;
+      const int nodes = sample_dimension(&file[k], "nodes", NODES);
+      put_places(&file[k], LON_LAT, nodes, NODES, node, 1.0);
+      put(&file[k], U_V[k], NC_DOUBLE, 1, &nodes, m.node[1],
+          (attributes){"coordinates", "lon lat", NULL, NULL});
+      sample_end(&file[k]);
+    }
+    const fg_read_options options = {.vars_from = file[1].path};
+    if (far)
+      refuse_with(f, &options, FG_STATUS_UNSUPPORTED,
+                  "second.nc lie more than half a cell apart");
+    else
+      fg_field_destroy(read_with(f, &options));
+    unlink(file[1].path);
+  }
+}
+
 /* A file with the mesh that is not needed is refused as the wrong one. */
 static void a_mesh_that_is_not_used_is_refused(void **state)
 {
@@ -126,6 +154,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(components_and_mesh_in_three_files),
+      CASE(components_at_other_nodes_are_refused),
       CASE(a_mesh_that_is_not_used_is_refused),
       CASE(absent_meshes_are_named),
   };

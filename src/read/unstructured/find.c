@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "read/unstructured/unstructured.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -245,6 +246,70 @@ static void check_pair(fg__nc_grid *grid, const fg__nc_file *file,
   check_storage(grid, file, mesh, pair);
 }
 
+/* Whether most of the second places are more than half as far from the first ones as
+ * these are from each other, for all that their extent says. */
+static bool lie_apart(double *const a[2], double *const b[2], size_t count, bool globe)
+{
+  double extent[2];
+  size_t far = 0;
+  for (int k = 0; k < 2; ++k) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (size_t n = 0; n < count; ++n) {
+      low = fmin(low, a[k][n]);
+      high = fmax(high, a[k][n]);
+    }
+    extent[k] = high - low;
+  }
+  const double between = sqrt(extent[0] * extent[1] / (double)count);
+  for (size_t n = 0; n < count; ++n) {
+    const double x = b[0][n] - a[0][n];
+    far += hypot(globe ? remainder(x, 360.0) : x, b[1][n] - a[1][n]) > 0.5 * between;
+  }
+  return 2 * far > count;
+}
+
+/* The variable of a place's name and length in another file; NULL: none. */
+static const fg__nc_variable *namesake(const fg__nc_file *file, const fg__nc_variable *of,
+                                       int number)
+{
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (v->file == number && v != of && v->rank == 1 && fg__nc_is_array(v) &&
+        strcmp(v->name, of->name) == 0 &&
+        fg__nc_same_dimension(file, v->dimension[0], of->dimension[0]))
+      return v;
+  }
+  return NULL;
+}
+
+/* Components of two files that have places each: they have to be the same. */
+static fg_status check_places(fg__nc_grid *grid, const fg__nc_file *file,
+                              const fg__nc_pair *pair)
+{
+  const fg__nc_unstructured *mesh = grid->unstructured;
+  const fg__nc_variable *const *of_u = mesh->node[0] ? mesh->node : mesh->centre;
+  const int number = pair->component[1]->file;
+  double *a[2] = {NULL, NULL}, *b[2] = {NULL, NULL};
+  if (pair->component[0]->file == number || !of_u[0] || of_u[0]->file == number ||
+      of_u[0]->rank != 1)
+    return FG_STATUS_OK;
+  const fg__nc_variable *const of_v[2] = {namesake(file, of_u[0], number),
+                                          namesake(file, of_u[1], number)};
+  if (!of_v[0] || !of_v[1])
+    return FG_STATUS_OK;
+  const size_t count = file->dimensions[of_u[0]->dimension[0]].length;
+  fg_status status = fg__nc_positions_of(a, file, mesh, of_u, count);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_positions_of(b, file, mesh, of_v, count);
+  if (status == FG_STATUS_OK && lie_apart(a, b, count, !mesh->in_plane))
+    fg__nc_refuse_apart(grid, pair);
+  for (int k = 0; k < 2; ++k) {
+    free(a[k]);
+    free(b[k]);
+  }
+  return status;
+}
+
 static bool is_numbers(const fg__nc_variable *v)
 {
   return fg__nc_is_array(v) && v->rank < FG__NC_RANK;
@@ -273,6 +338,8 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
   grid->dimension = 2;
   find_mask(mesh, file);
   check_pair(grid, file, pair, options);
+  const fg_status status =
+      grid->unusable[0] ? FG_STATUS_OK : check_places(grid, file, pair);
   grid->scale = mesh->in_plane ? FG_SCALE_MAP : FG_SCALE_GEO;
   if (options->scale == FG_SCALE_GEO && mesh->in_plane)
     fg__set_unusable(grid->unusable, "scale geo needs longitudes and latitudes");
@@ -280,5 +347,5 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
     grid->scale = options->scale;
     mesh->in_plane = true;
   }
-  return fg__nc_status(file, FG_STATUS_OK);
+  return fg__nc_status(file, status);
 }

@@ -31,12 +31,12 @@ static fg_status find_words(request *r)
 {
   const fg_status status =
       fg__nc_words_find(&r->words, r->file, r->pair, r->grid, r->options);
-  r->texts = (fg_field_arrays){
-      .velocity_name = {r->pair->component[0]->name, r->pair->component[1]->name},
-      .velocity_units = r->words.units,
-      .title = r->words.title,
-      .time = r->words.time[0] ? r->words.time : NULL,
-      .level = r->words.level[0] ? r->words.level : NULL};
+  r->texts = (fg_field_arrays){.velocity_name = {fg__nc_component_name(r->pair, 0),
+                                                 fg__nc_component_name(r->pair, 1)},
+                               .velocity_units = r->words.units,
+                               .title = r->words.title,
+                               .time = r->words.time[0] ? r->words.time : NULL,
+                               .level = r->words.level[0] ? r->words.level : NULL};
   return status;
 }
 
@@ -98,6 +98,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
   if (status == FG_STATUS_OK)
     status = read_values(&velocity[1], r, r->pair->component[1],
                          &grid->unstructured->of_v, false);
+  if (status == FG_STATUS_OK)
+    fg__polar_turn_all(velocity, grid->samples, &r->pair->polar);
   if (status == FG_STATUS_OK)
     status = apply_mask(velocity[0], r);
   if (status != FG_STATUS_OK || r->counts_only)

@@ -145,6 +145,42 @@ static fg_status add_pairs(fg__vtk_vector **out, size_t *count, size_t *capacity
   return FG_STATUS_OK;
 }
 
+/* Vectors that the file marks as such come first, then vector variables, then pairs. */
+static int rank(const fg__vtk *vtk, const fg__vtk_vector *vector)
+{
+  if (vector->names > 1)
+    return 2;
+  const char *active = fg__vtk_home(vtk, 0)->vectors[vector->place];
+  return active && strcmp(active, vector->name[0]) == 0 ? 0 : 1;
+}
+
+static bool is_the_same(const fg__vtk_vector *a, const fg__vtk_vector *b)
+{
+  if (a->names != b->names)
+    return false;
+  for (int k = 0; k < a->names; ++k)
+    if (strcmp(a->name[k], b->name[k]) != 0)
+      return false;
+  return true;
+}
+
+/* Leaves one of the vectors that have one name: a name on points and on cells is one
+ * quantity, of which the one that is marked is taken, else the points'. */
+static size_t drop_repeated(fg__vtk_vector *vectors, size_t count, const fg__vtk *vtk)
+{
+  size_t kept = 0;
+  for (size_t i = 0; i < count; ++i) {
+    size_t k = 0;
+    while (k < kept && !is_the_same(&vectors[k], &vectors[i]))
+      ++k;
+    const int better = k < kept ? rank(vtk, &vectors[k]) - rank(vtk, &vectors[i]) : 1;
+    if (better > 0 || (better == 0 && vectors[i].place == FG__VTK_POINTS))
+      vectors[k] = vectors[i];
+    kept += k == kept;
+  }
+  return kept;
+}
+
 /* Those of so many components; 0: two or three, arrays in pairs. */
 static fg_status list_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk *vtk,
                               int components)
@@ -163,6 +199,8 @@ static fg_status list_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk
       status = add_pairs(out, count, &capacity, vtk, array, components == 3 ? 3 : 2);
     }
   }
+  if (*count > 0)
+    *count = drop_repeated(*out, *count, vtk);
   if (status != FG_STATUS_OK) {
     free(*out);
     *out = NULL;
@@ -193,8 +231,10 @@ static void list_names(char *text, size_t size, const fg__vtk *vtk)
   const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
   snprintf(text, size, "none");
   for (size_t i = 0; i < arrays && used < size; ++i, ++array)
-    used += (size_t)snprintf(text + used, size - used, "%s%.100s", i ? ", " : "",
-                             array->name);
+    if (array->place != FG__VTK_CELLS ||
+        !fg__vtk_find(vtk, 0, FG__VTK_POINTS, array->name))
+      used += (size_t)snprintf(text + used, size - used, "%s%.100s", used ? ", " : "",
+                               array->name);
 }
 
 fg_status fg__vtk_fail_unknown(const fg__vtk *vtk, const char *name)
@@ -298,26 +338,6 @@ static fg_status fail_none(const fg__vtk *vtk)
                   "%s: holds no vectors; its variables: %s", vtk->path, names);
 }
 
-/* Vectors that the file marks as such come first, then vector variables, then pairs. One
- * name on points and on cells is one quantity: the points' is taken. */
-static int rank(const fg__vtk *vtk, const fg__vtk_vector *vector)
-{
-  if (vector->names > 1)
-    return 2;
-  const char *active = fg__vtk_home(vtk, 0)->vectors[vector->place];
-  return active && strcmp(active, vector->name[0]) == 0 ? 0 : 1;
-}
-
-static bool is_the_same(const fg__vtk_vector *a, const fg__vtk_vector *b)
-{
-  if (a->names != b->names)
-    return false;
-  for (int k = 0; k < a->names; ++k)
-    if (strcmp(a->name[k], b->name[k]) != 0)
-      return false;
-  return true;
-}
-
 static fg_status choose_among(fg__vtk_vector *out, const fg__vtk *vtk,
                               fg__vtk_vector *vectors, size_t count)
 {
@@ -326,17 +346,9 @@ static fg_status choose_among(fg__vtk_vector *out, const fg__vtk *vtk,
     if (rank(vtk, &vectors[i]) < best)
       best = rank(vtk, &vectors[i]);
   size_t kept = 0;
-  for (size_t i = 0; i < count; ++i) {
-    bool known = rank(vtk, &vectors[i]) != best;
-    for (size_t k = 0; k < kept && !known; ++k)
-      if (is_the_same(&vectors[k], &vectors[i])) {
-        known = true;
-        if (vectors[i].place == FG__VTK_POINTS)
-          vectors[k] = vectors[i];
-      }
-    if (!known)
+  for (size_t i = 0; i < count; ++i)
+    if (rank(vtk, &vectors[i]) == best)
       vectors[kept++] = vectors[i];
-  }
   if (kept > 1)
     return fail_ambiguous(vtk, vectors, kept);
   *out = vectors[0];

@@ -356,7 +356,8 @@ static void every_vector_is_listed(void **state)
       "<PointData Vectors='U'>" PAIR_OF("U", "nan 2 1 2 1 2 1 2\n1 2 1 2 1 NaN 1 2\n"
                                              "1 2 nan 2 1 2 1 2")
           SCALAR("vx", "1 1 1 1 1 1 1 1 1 1 1 1") SCALAR("vy", "1 1 1 1 1 1 1 1 1 1 1 1")
-              SCALAR("p", "") "</PointData>");
+              SCALAR("p", "") "</PointData>" CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 1 2")
+                                                       SCALAR("p", "")));
   fg_inventory *inventory = inventory_of(*state, file);
   assert_int_equal(fg_inventory_vector_count(inventory), 2);
   const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
