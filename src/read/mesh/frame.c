@@ -52,6 +52,13 @@ static const char *geographic_word(const fg__nc_variable *v, size_t count)
   return NULL;
 }
 
+bool fg__nc_says_east(const fg__nc_variable *u)
+{
+  char name[FG__NC_TEXT];
+  const int standard = by_standard_name(u, name, sizeof name);
+  return standard > 0 || (standard == 0 && geographic_word(u, UNAMBIGUOUS_WORDS));
+}
+
 /* The same of a pair; in a file with the grid's angle only an unambiguous word counts. */
 static const char *word_of_pair(const fg__nc_pair *pair, bool angle)
 {
@@ -123,6 +130,28 @@ static bool is_on_indices(const fg__nc_mesh *mesh, const fg__nc_file *file)
   return true;
 }
 
+/* Whether u and v are along coordinates of a plane, as of a projection, or of a rotated
+ * pole. */
+static bool is_on_a_plane(const fg__nc_mesh *mesh, const fg__nc_file *file)
+{
+  for (int k = 0; k < 2; ++k) {
+    char text[FG__NC_TEXT], label[FG__NC_TEXT];
+    const fg__nc_part *u = &mesh->part[0];
+    const fg__nc_variable *along =
+        fg__nc_coordinate(file, u->variable, u->grid.axis[k].position);
+    if (!along)
+      return false;
+    fg__nc_text(along, "units", text, sizeof text);
+    if (fg__nc_units(text, label, sizeof label) == FG__NC_LENGTH)
+      continue;
+    fg__nc_text(along, "standard_name", text, sizeof text);
+    if (!starts_with(text, "projection_") && !starts_with(text, "grid_l") &&
+        !starts_with(along->plain_name, k == 0 ? "rlon" : "rlat"))
+      return false;
+  }
+  return true;
+}
+
 /* Whether the names are NEMO's for components along the grid. */
 static bool is_of_nemo(const fg__nc_variable *u)
 {
@@ -178,14 +207,15 @@ bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
     frame = 1;
     snprintf(why, sizeof why, "its name says %s", word);
   } else if (angle || is_staggered(mesh) || is_of_nemo(u) || is_of_wrf(u) ||
-             is_on_indices(mesh, file)) {
+             is_on_indices(mesh, file) || is_on_a_plane(mesh, file)) {
     frame = -1;
     snprintf(why, sizeof why, "%s",
-             is_staggered(mesh) ? "a staggered grid"
-             : angle            ? "the file has the grid's angle"
-             : is_of_nemo(u)    ? "NEMO's names"
-             : is_of_wrf(u)     ? "WRF's attributes"
-                                : "its dimensions count cells");
+             is_staggered(mesh)          ? "a staggered grid"
+             : angle                     ? "the file has the grid's angle"
+             : is_of_nemo(u)             ? "NEMO's names"
+             : is_of_wrf(u)              ? "WRF's attributes"
+             : is_on_indices(mesh, file) ? "its dimensions count cells"
+                                         : "its axes are a plane's");
   }
   if (frame > 0)
     mesh->turn = FG__NC_TURN_NONE;

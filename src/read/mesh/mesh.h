@@ -60,6 +60,9 @@ fg_status fg__nc_faces_find(fg__nc_grid *grid, const fg__nc_file *file,
 bool fg__nc_frame_find(fg__nc_mesh *mesh, const fg__nc_file *file,
                        const fg__nc_pair *pair, fg_frame wanted);
 
+/* Whether a component's names say that it is along east or north. */
+bool fg__nc_says_east(const fg__nc_variable *u);
+
 /* positions.c. Longitudes and latitudes of a part's samples, in degrees. To be freed,
  * also after a failure. */
 typedef struct fg__nc_positions {

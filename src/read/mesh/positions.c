@@ -67,14 +67,52 @@ static fg_status read_coordinate(double **out, const fg__nc_file *file,
   return status;
 }
 
+static bool are_same(const fg__nc_positions *at, size_t a, size_t b)
+{
+  return at->longitude[a] == at->longitude[b] && at->latitude[a] == at->latitude[b];
+}
+
+/* Whether point n has the position of a neighbour along one direction, in which it is the
+ * i-th of `count`. */
+static bool is_repeated(const fg__nc_positions *at, size_t n, size_t i, size_t count,
+                        size_t step)
+{
+  return (i > 0 && are_same(at, n, n - step)) ||
+         (i + 1 < count && are_same(at, n, n + step));
+}
+
+/* Marks the points that have the position of a neighbour along i and of one along j: it
+ * stands for none, as the zeros do that NEMO writes where it leaves out land. */
+static fg_status leave_out_repeated(fg__nc_positions *at, fg_context *context,
+                                    size_t columns, size_t rows)
+{
+  const size_t count = columns * rows;
+  bool *repeated = fg__allocate(count, sizeof *repeated);
+  if (!repeated)
+    return fg__fail_memory(context, "positions", count * sizeof *repeated);
+  for (size_t j = 0; j < rows; ++j)
+    for (size_t i = 0; i < columns; ++i) {
+      const size_t n = j * columns + i;
+      repeated[n] =
+          is_repeated(at, n, i, columns, 1) && is_repeated(at, n, j, rows, columns);
+    }
+  for (size_t n = 0; n < count; ++n)
+    if (repeated[n])
+      at->longitude[n] = at->latitude[n] = (double)NAN;
+  free(repeated);
+  return FG_STATUS_OK;
+}
+
 fg_status fg__nc_positions_read(fg__nc_positions *out, const fg__nc_file *file,
                                 const fg__nc_part *part, size_t time)
 {
   *out = (fg__nc_positions){0};
-  const fg_status status =
-      read_coordinate(&out->longitude, file, part, part->longitude, time);
+  fg_status status = read_coordinate(&out->longitude, file, part, part->longitude, time);
+  if (status == FG_STATUS_OK)
+    status = read_coordinate(&out->latitude, file, part, part->latitude, time);
   return status == FG_STATUS_OK
-             ? read_coordinate(&out->latitude, file, part, part->latitude, time)
+             ? leave_out_repeated(out, file->context, part->grid.axis[0].size,
+                                  part->grid.axis[1].size)
              : status;
 }
 
@@ -392,11 +430,10 @@ static fg_status centres_between(fg__nc_positions *out, const fg__nc_file *file,
     for (size_t i = 0; i < columns; ++i)
       fg__nc_unit_vector(row + 3 * i, out, j * columns + i);
     for (size_t i = 0; i < columns; ++i) {
-      const size_t n = j * columns + i;
       double at[3];
       half_way_in_row(at, row, i, columns, -mesh->shift[0]);
-      out->longitude[n] = atan2(at[1], at[0]) / FG__RADIANS;
-      out->latitude[n] = atan2(at[2], hypot(at[0], at[1])) / FG__RADIANS;
+      out->longitude[j * columns + i] = atan2(at[1], at[0]) / FG__RADIANS;
+      out->latitude[j * columns + i] = atan2(at[2], hypot(at[0], at[1])) / FG__RADIANS;
     }
   }
   free(row);

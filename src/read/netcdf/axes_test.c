@@ -214,6 +214,24 @@ static void curvilinear_grids_need_a_frame(void **state)
   fg_field_destroy(field);
 }
 
+/* Lines of a swath at times of their own are no times of the field (SWOT). */
+static void swaths_run_along_time(void **state)
+{
+  sample_file *f = *state;
+  static const double seconds[ROWS] = {0.0, 3.0, 6.0};
+  int lines;
+  make_plane(f, 2.0, false, false);
+  nc_must(nc_open(f->path, NC_WRITE, &f->id));
+  nc_must(nc_inq_dimid(f->id, "cross", &lines));
+  const int time = sample_variable(f, "time", NC_DOUBLE, 1, &lines);
+  sample_text(f, time, "units", "seconds since 2000-01-01");
+  sample_put(f, time, seconds);
+  sample_end(f);
+  fg_field *field = read_with(f, &(fg_read_options){.frame = FG_FRAME_EAST});
+  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
+  fg_field_destroy(field);
+}
+
 /* Components along east on axes that do not run east. */
 static void components_must_run_along_the_axes(void **state)
 {
@@ -246,7 +264,8 @@ static void components_must_run_along_the_axes(void **state)
   }
 }
 
-static void a_rotated_pole_has_a_sphere_of_its_own(void **state)
+/* Nothing says where on the Earth it is. */
+static void a_rotated_pole_alone_is_a_plane(void **state)
 {
   sample_file *f = *state;
   static const double degrees[4] = {-3.0, -2.0, -1.0, 0.5};
@@ -263,10 +282,15 @@ static void a_rotated_pole_has_a_sphere_of_its_own(void **state)
   put_columns(f, u, v, 4);
   sample_end(f);
   fg_field *field = read_field(f);
-  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
+  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_PLAIN);
   assert_string_equal(fg_field_contents(field)->axis_name[0], "grid longitude");
   assert_string_equal(fg_field_contents(field)->axis_units[0], "°");
   fg_field_destroy(field);
+  nc_must(nc_open(f->path, NC_WRITE, &f->id));
+  sample_text(f, u, "standard_name", "eastward_wind");
+  sample_text(f, v, "standard_name", "northward_wind");
+  sample_end(f);
+  refuse(f, "'u' points east, but the axes of its rotated grid do not");
 }
 
 /* Without coordinates or known names the last dimension is x. */
@@ -320,6 +344,15 @@ static void dimensions_that_fit_nothing_are_refused(void **state)
   sample_variable(f, "v", NC_FLOAT, 2, all);
   sample_end(f);
   refuse(f, "only one dimension in space");
+  sample_begin(f, 0);
+  all[0] = sample_dimension(f, "time", 2);
+  all[1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
+  all[2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
+  sample_variable(f, "u", NC_FLOAT, 3, all);
+  sample_variable(f, "v", NC_FLOAT, 2, all + 1);
+  sample_end(f);
+  refuse(f, "'u' is 2 x 3 x 3, 'v' is 3 x 3 samples");
+  assert_null(strstr(fg_context_message(f->context), "staggered"));
 }
 
 /* A file of a few kilobytes that declares gigabytes must cost neither time nor memory. */
@@ -375,8 +408,9 @@ int main(void)
       CASE(axes_out_of_order_are_refused),
       CASE(grids_in_disguise_are_recognised),
       CASE(curvilinear_grids_need_a_frame),
+      CASE(swaths_run_along_time),
       CASE(components_must_run_along_the_axes),
-      CASE(a_rotated_pole_has_a_sphere_of_its_own),
+      CASE(a_rotated_pole_alone_is_a_plane),
       CASE(bare_arrays_are_read_on_their_indices),
       CASE(dimensions_that_fit_nothing_are_refused),
       CASE(grids_that_no_file_can_hold_are_refused),

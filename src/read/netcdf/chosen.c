@@ -2,7 +2,7 @@
  * an ensemble. */
 #include "base/memory.h"
 #include "flowgrain/inventory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -189,6 +189,26 @@ static void any_dimension_can_be_chosen(void **state)
   fg_field_destroy(field);
 }
 
+/* A time is told once, though components name it among their coordinates (ERA5). */
+static void a_time_that_is_chosen_is_told_once(void **state)
+{
+  static const double hours[TIMES] = {0.0, 6.0};
+  sample_file *f = *state;
+  const double values[TIMES * COUNT] = {[COUNT] = 1.0};
+  sample_begin(f, 0);
+  const int all[] = {sample_axis(f, "valid_time", TIMES, hours, "hours since 2020-01-01"),
+                     sample_axis(f, "y", NY, Y, "km"), sample_axis(f, "x", NX, X, "km")};
+  for (int k = 0; k < 2; ++k) {
+    const int id = sample_variable(f, k == 0 ? "u" : "v", NC_FLOAT, 3, all);
+    sample_text(f, id, "coordinates", "number valid_time");
+    sample_put(f, id, values);
+  }
+  sample_end(f);
+  fg_field *field = read_with(f, &(fg_read_options){.at = "valid_time=1"});
+  assert_string_equal(fg_field_contents(field)->time, "2020-01-01 06:00");
+  fg_field_destroy(field);
+}
+
 static void choices_are_checked(void **state)
 {
   static const struct {
@@ -303,6 +323,7 @@ int main(void)
       CASE(one_of_several_dimensions_is_read),
       CASE(inventories_tell_what_is_chosen),
       CASE(any_dimension_can_be_chosen),
+      CASE(a_time_that_is_chosen_is_told_once),
       CASE(choices_are_checked),
       CASE(samples_have_labels),
       CASE(values_go_before_indices),

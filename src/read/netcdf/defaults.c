@@ -23,6 +23,15 @@ static direction attribute_direction(const fg__nc_variable *coordinate)
                                          : NEITHER;
 }
 
+/* Whether any value is. */
+static bool is_above_0(const double *value, size_t count)
+{
+  for (size_t n = 0; n < count; ++n)
+    if (value[n] > 0.0)
+      return true;
+  return false;
+}
+
 /* The direction of a coordinate in the ocean: by its standard name (CF conventions,
  * appendix D: sigma and s increase upwards); or, in units of length, depth that increases
  * downwards, or height with no value above 0. */
@@ -43,16 +52,15 @@ static direction direction_in_ocean(const fg__nc_variable *coordinate,
     return NEITHER; /* air pressure increases downwards, too */
   if (name[0] || quantity != FG__NC_LENGTH || positive != UP)
     return name[0] || positive != DOWN ? NEITHER : DOWN;
-  for (size_t n = 0; n < count; ++n)
-    if (value[n] > 0.0)
-      return NEITHER;
-  return UP;
+  return is_above_0(value, count) ? NEITHER : UP;
 }
 
 static size_t find_surface(const fg__nc_variable *coordinate, const double *value,
                            size_t count)
 {
-  const direction to = direction_in_ocean(coordinate, value, count);
+  direction to = direction_in_ocean(coordinate, value, count);
+  if (to == DOWN && !is_above_0(value, count))
+    to = UP; /* heights that are called depths (xmitgcm) */
   size_t best = 0;
   for (size_t n = 1; n < count && to != NEITHER; ++n)
     if (to == UP ? value[n] > value[best] : value[n] < value[best])

@@ -133,9 +133,9 @@ void fg__nc_check_shapes(fg__nc_grid *grid, const fg__nc_file *file,
   write_shape(of_v, sizeof of_v, file, v);
   if (strcmp(of_u, of_v) != 0) {
     grid->off_axes = true;
-    fg__set_unusable(grid->unusable,
-                     "'%.60s' is %s, '%.60s' is %s samples: a staggered grid",
-                     u->plain_name, of_u, v->plain_name, of_v);
+    fg__set_unusable(grid->unusable, "'%.60s' is %s, '%.60s' is %s samples%s",
+                     u->plain_name, of_u, v->plain_name, of_v,
+                     u->rank == v->rank ? ": a staggered grid" : "");
     return;
   }
   for (int k = 0; k < u->rank; ++k)

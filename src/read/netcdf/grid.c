@@ -1,6 +1,7 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "read/mesh/mesh.h"
+#include "read/netcdf/time/dates.h"
 #include "read/unstructured/unstructured.h"
 
 #include <limits.h>
@@ -30,12 +31,14 @@ static void check_lengths(fg__nc_grid *grid, const fg__nc_file *file,
 }
 
 static void set_index_axis(const fg__nc_file *file, const fg__nc_variable *v,
-                           int position, size_t *count,
+                           fg__nc_role role, int position, size_t *count,
                            const fg__nc_variable **coordinate, char *name)
 {
   *count = 1;
-  if (position < 0)
+  if (position < 0) {
+    *coordinate = fg__nc_single_coordinate(file, v, role);
     return;
+  }
   const fg__nc_dimension *d = &file->dimensions[v->dimension[position]];
   *count = d->length;
   *coordinate = fg__nc_coordinate(file, v, position);
@@ -68,14 +71,18 @@ static const fg__nc_variable *dates_beside(const fg__nc_file *file,
 void fg__nc_set_index_axes(fg__nc_grid *grid, const fg__nc_file *file,
                            const fg__nc_variable *v)
 {
-  set_index_axis(file, v, grid->time, &grid->times, &grid->time_variable,
+  set_index_axis(file, v, FG__NC_TIME, grid->time, &grid->times, &grid->time_variable,
                  grid->time_name);
-  set_index_axis(file, v, grid->level, &grid->levels, &grid->level_variable,
+  set_index_axis(file, v, FG__NC_LEVEL, grid->level, &grid->levels, &grid->level_variable,
                  grid->level_name);
-  if (grid->time >= 0 && grid->time_variable)
+  if (grid->time < 0)
+    return;
+  if (grid->time_variable)
     grid->time_variable = dates_beside(file, grid->time_variable);
-  if (grid->time >= 0 && !grid->time_variable)
-    grid->time_variable = fg__nc_date_texts(file, v->dimension[grid->time]);
+  const fg__nc_variable *texts = fg__nc_date_texts(file, v->dimension[grid->time]);
+  /* FVCOM's days in single precision are minutes off */
+  if (texts && (!grid->time_variable || grid->time_variable->type == NC_FLOAT))
+    grid->time_variable = texts;
 }
 
 static fg_status find_dimensions(fg__nc_grid *grid, const fg__nc_file *file,
@@ -215,11 +222,9 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
 {
   const fg__nc_quantity x = grid->axis[0].quantity;
   const fg__nc_quantity y = grid->axis[1].quantity;
-  const bool rotated = strcmp(grid->axis[0].name, "grid longitude") == 0 &&
-                       strcmp(grid->axis[1].name, "grid latitude") == 0;
   /* any vector along east and north lies on the sphere; an angular speed counts
    * degrees */
-  if (((x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH) || rotated) &&
+  if (x == FG__NC_DEGREES_EAST && y == FG__NC_DEGREES_NORTH &&
       velocity != FG__NC_ANGULAR_SPEED)
     return FG_SCALE_GEO;
   if (x == FG__NC_LENGTH && y == FG__NC_LENGTH)
@@ -227,20 +232,24 @@ static fg_scale natural_scale(const fg__nc_grid *grid, fg__nc_quantity velocity)
   return FG_SCALE_PLAIN;
 }
 
+static bool is_rotated(const fg__nc_grid *grid)
+{
+  return strcmp(grid->axis[0].name, "grid longitude") == 0 &&
+         strcmp(grid->axis[1].name, "grid latitude") == 0;
+}
+
 /* Components along east and north are not components along the axes of a projection or of
  * a rotated pole, except in cylindrical projections such as Mercator's. Without the
- * projection they cannot be rotated. */
+ * projection they cannot be rotated; of a speed and a direction fg__nc_check_polar says
+ * so. */
 static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
                              const fg__nc_pair *pair, fg_frame frame)
 {
   const fg__nc_variable *u = pair->component[0];
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
-  char text[FG__NC_TEXT];
   char mapping[FG__NC_TEXT];
-  fg__nc_text(u, "standard_name", text, sizeof text);
-  const bool east = pair->polar.sense != 0 ||
-                    (strstr(text, "eastward") && strncmp(text, "grid_", 5) != 0);
+  const bool east = pair->polar.sense != 0 || fg__nc_says_east(u);
   if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
   if (grid->projection[0]) {
@@ -250,7 +259,8 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
   fg__nc_text(u, "grid_mapping", mapping, sizeof mapping);
   const fg__nc_variable *described = mapping[0] ? fg__nc_find(file, mapping) : NULL;
   if (!described || !fg__nc_text(described, "grid_mapping_name", mapping, sizeof mapping))
-    return;
+    snprintf(mapping, sizeof mapping, "%s",
+             is_rotated(grid) && pair->polar.sense == 0 ? "rotated" : upright[0]);
   for (size_t i = 0; i < sizeof upright / sizeof *upright; ++i)
     if (strcmp(mapping, upright[i]) == 0)
       return;
@@ -261,10 +271,18 @@ static void check_directions(fg__nc_grid *grid, const fg__nc_file *file,
            "--scale map or plain takes the components as if they were along the axes");
 }
 
-static bool is_rotated(const fg__nc_grid *grid)
+/* In a plane of unknown projection points are placed by longitude and latitude, where the
+ * file has them. */
+static fg_status prefer_positions(fg__nc_grid *grid, const fg__nc_file *file,
+                                  const fg__nc_pair *pair)
 {
-  return strcmp(grid->axis[0].name, "grid longitude") == 0 &&
-         strcmp(grid->axis[1].name, "grid latitude") == 0;
+  const fg_scale of_plane = grid->scale;
+  bool found = false;
+  grid->scale = FG_SCALE_AUTO;
+  const fg_status status = read_plane(grid, file, pair, &found);
+  grid->scale = found ? FG_SCALE_GEO : of_plane;
+  set_positions(grid, pair->component[0]);
+  return status;
 }
 
 static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
@@ -280,6 +298,9 @@ static fg_status settle_scale(fg__nc_grid *grid, const fg__nc_file *file,
     status = fg__nc_projection_find(grid, file, pair->component[0]);
   if (grid->projection[0])
     grid->scale = FG_SCALE_MAP;
+  else if (wanted == FG_SCALE_AUTO && grid->scale != FG_SCALE_GEO && is_usable(grid) &&
+           !grid->faces.used)
+    status = prefer_positions(grid, file, pair);
   if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO || pair->polar.sense != 0) &&
       is_usable(grid))
     check_directions(grid, file, pair, options->frame);

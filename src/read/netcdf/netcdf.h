@@ -186,20 +186,6 @@ fg__nc_quantity fg__nc_units(const char *units, char *label, size_t size);
 /* The seconds of a unit of time ("hours"); false for any other unit. */
 bool fg__nc_seconds(const char *units, double *out);
 
-/* Writes a time as a date of its calendar in UTC, "2014-01-31 03:00[:30]"; false when
- * units or calendar are unknown. */
-bool fg__nc_date(double value, const char *units, const char *calendar, char *out,
-                 size_t size);
-
-/* Converts a date that a file has as text to the same form. Text is
- * "2010-07-16_12:00:00", with a space or T in place of the underscore; fractions of a
- * second and a Z at the end are dropped. False when it is no date. */
-bool fg__nc_date_of_text(const char *text, char *out, size_t size);
-
-/* Writes a time without a known reference date as a duration, "3 d", "1 d 6 h 30 min";
- * false where units are not of time, or the time is no whole number of seconds. */
-bool fg__nc_duration(double value, const char *units, char *out, size_t size);
-
 typedef struct fg__nc_pair {
   const fg__nc_variable *component[3]; /* the third NULL when there is none */
   bool volume;                         /* the options name all three */
@@ -243,6 +229,13 @@ void fg__nc_classify(fg__nc_variable *variable);
 /* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
 const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
                                          const fg__nc_variable *variable, int k);
+
+/* A coordinate of one value of that role which is along none of the variable's
+ * dimensions (CF conventions, section 5.7): the variable names it, or the file does. Of
+ * time it has dates. NULL: none. */
+const fg__nc_variable *fg__nc_single_coordinate(const fg__nc_file *file,
+                                                const fg__nc_variable *variable,
+                                                fg__nc_role role);
 
 /* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
 bool fg__nc_is_time(const fg__nc_file *file, const fg__nc_variable *variable, int k);
@@ -352,6 +345,9 @@ fg_status fg__nc_plane_compare(bool *apart, const fg__nc_grid *grid,
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__nc_alike_dimension(const fg__nc_file *file, int a, int b);
 
+/* Whether a name is one of those in a text with blanks between. */
+bool fg__nc_is_listed(const char *names, const char *name);
+
 /* Whether names are equal, or differ in a u of one where the other has a v ("depthu" and
  * "depthv" of NEMO). */
 bool fg__nc_named_alike(const char *of_u, const char *of_v);
@@ -431,7 +427,7 @@ fg_status fg__nc_doubles(double *out, const fg__nc_file *file,
                          const fg__nc_variable *variable, const fg__nc_grid *grid,
                          const fg__nc_variable *component, size_t time, size_t level);
 
-/* The same of a variable with one dimension. */
+/* The same of all numbers of a variable with one dimension or more. */
 fg_status fg__nc_line(double *out, const fg__nc_file *file,
                       const fg__nc_variable *variable);
 
@@ -467,17 +463,6 @@ fg_status fg__nc_defaults(fg_read_defaults *out, const fg__nc_file *file,
  * NULL where there is no coordinate, or too many values to choose from. */
 fg_status fg__nc_axis_values(fg_axis_value **out, char **text, const fg__nc_file *file,
                              const fg__nc_variable *coordinate, size_t count);
-
-/* time/date_texts.c. The variable with a date as text for each index of a dimension, or
- * NULL. */
-const fg__nc_variable *fg__nc_date_texts(const fg__nc_file *file, int dimension);
-
-/* The date at one index, "" where the text is no date. Then fg__nc_axis_values of all
- * dates, whose numbers are NaN; NULL where one of the texts is no date. */
-fg_status fg__nc_date_text(char *out, size_t size, const fg__nc_variable *texts,
-                           size_t index);
-fg_status fg__nc_date_values(fg_axis_value **out, char **text,
-                             const fg__nc_variable *texts, size_t count);
 
 /* The texts of a picture's caption. */
 typedef struct fg__nc_words {

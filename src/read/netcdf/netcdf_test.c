@@ -289,7 +289,7 @@ static void inventories_tell_times_and_levels(void **state)
   assert_string_equal(v->time_value[1].words, "2001-02-28 18:00");
   assert_string_equal(v->time_value[2].words, "2001-03-01 00:00:30");
   assert_true(v->time_value[1].value == 6.0);
-  assert_string_equal(v->level_value[1].words, "30000 Pa");
+  assert_string_equal(v->level_value[1].words, "300 hPa");
   assert_string_equal(v->level_value[1].units, "Pa");
   fg_selection found;
   assert_int_equal(
@@ -305,6 +305,45 @@ static void inventories_tell_times_and_levels(void **state)
   assert_string_equal(v->name[0], "v10");
   assert_null(v->time_value);
   fg_inventory_destroy(inventory);
+}
+
+/* As xarray writes what it has chosen: one time and one level are no dimensions, but
+ * coordinates that the components, or the file, name. */
+static void single_coordinates_tell_time_and_level(void **state)
+{
+  static const double hours[] = {0.0, 6.0}, height[] = {10.0};
+  static const double flow[NX * NY] = {1.0, 2.0};
+  sample_file *f = *state;
+  for (int of_file = 0; of_file < 2; ++of_file) {
+    sample_begin(f, 0);
+    const int plane[2] = {sample_dimension(f, "ny", NY), sample_dimension(f, "nx", NX)};
+    static const char *const names[] = {"start", "valid", "height", "u", "v"};
+    static const char *const words[] = {"forecast_reference_time", "time", "height",
+                                        "eastward_wind", "northward_wind"};
+    static const char *const units[] = {"hours since 2023-05-01",
+                                        "hours since 2023-05-01", "m", "m/s", "m/s"};
+    for (int k = 0; k < 5; ++k) {
+      const int id = sample_variable(f, names[k], k < 3 ? NC_DOUBLE : NC_FLOAT,
+                                     k < 3 ? 0 : 2, plane);
+      sample_text(f, id, "standard_name", words[k]);
+      sample_text(f, id, "units", units[k]);
+      if (k == 3 || of_file)
+        sample_text(f, of_file ? NC_GLOBAL : id, "coordinates", "start valid height");
+      sample_put(f, id, k < 2 ? &hours[k] : k == 2 ? height : flow);
+    }
+    sample_end(f);
+    fg_field *field = read_with(f, NULL);
+    assert_string_equal(fg_field_contents(field)->time, "2023-05-01 06:00");
+    assert_string_equal(fg_field_contents(field)->level, "height 10 m");
+    fg_field_destroy(field);
+    fg_inventory *inventory;
+    assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+    const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+    assert_int_equal(v->times, 1);
+    assert_string_equal(v->time_value[0].words, "2023-05-01 06:00");
+    assert_string_equal(v->level_value[0].words, "height 10 m");
+    fg_inventory_destroy(inventory);
+  }
 }
 
 /* The defaults of a field of 3 levels whose coordinate has these attributes; "" none. */
@@ -349,6 +388,8 @@ static void the_usual_level_is_the_seas_surface(void **state)
                {"ocean_sigma_coordinate", "", "", rising, 1},
                {"depth", "", "m", depths, 1},
                {"", "down", "m", depths, 1},
+               {"depth", "down", "m", rising, 1},
+               {"", "down", "m", rising, 1},
                {"", "up", "m", rising, 1},
                {"", "up", "m", depths, 0},
                {"height", "up", "m", rising, 0},
@@ -385,11 +426,17 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(every_kind_of_file_reads_the_same),   CASE(any_order_of_dimensions_is_read),
-      CASE(winds_on_the_sphere_are_recognised),  CASE(groups_are_searched),
-      CASE(only_possible_requests_are_met),      CASE(files_without_vectors_say_so),
-      CASE(inventories_tell_what_reading_gives), CASE(inventories_tell_times_and_levels),
-      CASE(the_usual_level_is_the_seas_surface), CASE(the_demonstration_file_is_read),
+      CASE(every_kind_of_file_reads_the_same),
+      CASE(any_order_of_dimensions_is_read),
+      CASE(winds_on_the_sphere_are_recognised),
+      CASE(groups_are_searched),
+      CASE(only_possible_requests_are_met),
+      CASE(files_without_vectors_say_so),
+      CASE(inventories_tell_what_reading_gives),
+      CASE(inventories_tell_times_and_levels),
+      CASE(the_usual_level_is_the_seas_surface),
+      CASE(single_coordinates_tell_time_and_level),
+      CASE(the_demonstration_file_is_read),
   };
   return cmocka_run_group_tests_name("read/netcdf/netcdf", tests, NULL, NULL);
 }

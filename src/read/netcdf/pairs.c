@@ -300,10 +300,10 @@ static bool list_patterns(pattern_list *list, const fg__nc_file *file)
       continue;
     fg__nc_text(v, "units", text, sizeof text);
     const fg__nc_quantity quantity = fg__nc_units(text, label, sizeof label);
-    if (quantity >= FG__NC_LENGTH)
-      continue;
     const bool unitless = text[0] == '\0';
     fg__nc_text(v, "standard_name", text, sizeof text);
+    if (quantity >= FG__NC_LENGTH && !strstr(text, "displacement"))
+      continue;
     if (is_quality_name(text))
       continue;
     if (!add_standard_pattern(list, i, text))

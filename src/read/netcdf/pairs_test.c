@@ -162,6 +162,10 @@ static void standard_names_are_paired(void **state)
                                   {"alpha", names[i][0], "m/s"}};
     assert_pairs(*state, variables, 2, "alpha,beta");
   }
+  /* lengths, which otherwise are places */
+  static const declared drift[] = {{"dX", "sea_ice_x_displacement", "km"},
+                                   {"dY", "sea_ice_y_displacement", "km"}};
+  assert_pairs(*state, drift, 2, "dX,dY");
 }
 
 static void heights_of_one_standard_name_are_told_apart(void **state)

@@ -20,7 +20,7 @@ typedef struct plane {
   double *value; /* the file's order: [first dimension][second dimension] */
 } plane;
 
-static bool is_listed(const char *names, const char *name)
+bool fg__nc_is_listed(const char *names, const char *name)
 {
   const size_t length = strlen(name);
   for (const char *c = names; length > 0 && (c = strstr(c, name)); c += length)
@@ -76,7 +76,8 @@ const fg__nc_variable *fg__nc_plane_coordinate(const fg__nc_grid *grid,
     const fg__nc_variable *v = &file->variables[i];
     if (!lies_in_plane(file, v, x, y) || v->geographic != role)
       continue;
-    const int rank = 2 * (v->file == variable->file) + is_listed(listed, v->plain_name);
+    const int rank =
+        2 * (v->file == variable->file) + fg__nc_is_listed(listed, v->plain_name);
     if (rank > best) {
       best = rank;
       found = v;
@@ -93,7 +94,7 @@ bool fg__nc_names_plane(const fg__nc_grid *grid, const fg__nc_file *file,
   for (int role = FG__NC_X; role <= FG__NC_Y; ++role) {
     const fg__nc_variable *v =
         fg__nc_plane_coordinate(grid, file, variable, (fg__nc_role)role);
-    if (!v || !is_listed(listed, v->plain_name))
+    if (!v || !fg__nc_is_listed(listed, v->plain_name))
       return false;
   }
   return true;
@@ -180,6 +181,15 @@ static bool most_differ(const plane of[2], size_t n0, size_t n1, bool turned,
   return differ > equal;
 }
 
+/* Whether longitudes or latitudes are all alike, as idealised runs have them. */
+static bool are_alike(const plane *p, size_t count)
+{
+  size_t n = 1;
+  while (n < count && p->value[n] == p->value[0])
+    ++n;
+  return n == count;
+}
+
 static fg_status compare_planes(bool *apart, const fg__nc_file *file, plane of[2],
                                 bool turned, bool longitude)
 {
@@ -237,6 +247,9 @@ fg_status fg__nc_plane_find(fg__nc_grid *grid, const fg__nc_file *file,
   if (status == FG_STATUS_OK)
     status = read_plane(&latitude, file);
   if (status != FG_STATUS_OK)
+    goto cleanup;
+  const bool has_axes = grid->axis[0].coordinate != NULL;
+  if (has_axes && (are_alike(&longitude, n0 * n1) || are_alike(&latitude, n0 * n1)))
     goto cleanup;
   const bool same_order = other[0] == dimension[0];
   const int x = direction_of(&longitude, n0, n1, true);

@@ -278,14 +278,19 @@ static void what_cannot_be_turned_is_refused(void **state)
   refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "no vectors found");
   assert_string_equal(fg_context_hint(f->context),
                       "name the speed with its direction: --vars SPEED,wd");
-  sample_begin(f, 0);
-  dimension[0] = sample_axis(f, "y", NY, (double[]){0, 1, 2, 3}, "km");
-  dimension[1] = sample_axis(f, "x", NX, (double[]){0, 1, 2, 3, 4}, "km");
-  add_flow(f, &degrees, dimension);
-  const int height = sample_variable(f, "hs", NC_FLOAT, 2, dimension);
-  sample_text(f, height, "units", "m");
-  sample_end(f);
-  refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "where north lies on its grid is not");
+  for (int rotated = 1; rotated >= 0; --rotated) {
+    const char *units = rotated ? "degrees" : "km";
+    sample_begin(f, 0);
+    dimension[0] = sample_axis(f, "y", NY, (double[]){0, 1, 2, 3}, units);
+    dimension[1] = sample_axis(f, "x", NX, (double[]){0, 1, 2, 3, 4}, units);
+    for (int k = 0; k < 2 && rotated; ++k)
+      sample_text(f, k, "standard_name", k == 0 ? "grid_latitude" : "grid_longitude");
+    add_flow(f, &degrees, dimension);
+    const int height = sample_variable(f, "hs", NC_FLOAT, 2, dimension);
+    sample_text(f, height, "units", "m");
+    sample_end(f);
+    refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "where north lies on its grid is not");
+  }
   refuse_with(f, &(fg_read_options){.vars = "hs,wd"}, FG_STATUS_ARGUMENT,
               "'wd' is a direction, and 'hs' is no speed");
   assert_string_equal(fg_context_hint(f->context),

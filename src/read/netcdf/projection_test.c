@@ -24,8 +24,11 @@ typedef struct plane_file {
   double offset; /* of the axes from the projection's origin, in metres */
   bool east;     /* components along east and north */
   bool has_positions;
-  double wrong; /* added to the longitudes, degrees */
-  bool polar;   /* speed and direction from where the wind comes; of `east` */
+  double wrong;  /* added to the longitudes, degrees */
+  bool unmapped; /* no grid mapping */
+  bool alike;    /* all positions are one, as in idealised runs */
+  bool unnamed;  /* no standard names: long names where they are along east and north */
+  bool polar;    /* speed and direction from where the wind comes; of `east` */
 } plane_file;
 
 /* A wind of 3 along x and 4 along y everywhere, or its components along east and
@@ -49,7 +52,8 @@ static void write_plane(sample_file *f, const plane_file *how)
       v[n] = atan2(-u[n], -v[n]) / RADIANS;
       u[n] = 5.0;
     }
-    longitude[n] += how->wrong;
+    longitude[n] = how->alike ? MERIDIAN : longitude[n] + how->wrong;
+    latitude[n] = how->alike ? 45.0 : latitude[n];
   }
   const char *units = how->unit == 1.0 ? "m" : "km";
   const int rows = sample_axis(f, "y", SIDE, y, units);
@@ -62,16 +66,17 @@ static void write_plane(sample_file *f, const plane_file *how)
   sample_number(f, crs, "scale_factor_at_projection_origin", NC_DOUBLE, 1.0);
   sample_number(f, crs, "earth_radius", NC_DOUBLE, EARTH);
   for (int k = 0; k < 2; ++k) {
-    const int id = sample_variable(f,
-                                   how->polar ? (k == 0 ? "ws" : "wd")
-                                   : k == 0   ? "u"
-                                              : "v",
-                                   NC_FLOAT, 2, plane);
-    sample_text(f, id, "grid_mapping", "crs");
-    sample_text(f, id, "standard_name",
-                how->polar  ? (k == 0 ? "wind_speed" : "wind_from_direction")
-                : how->east ? (k == 0 ? "eastward_wind" : "northward_wind")
-                            : (k == 0 ? "x_wind" : "y_wind"));
+    static const char *const names[] = {"u", "v", "ws", "wd"};
+    static const char *const standard[] = {"x_wind",        "y_wind",
+                                           "eastward_wind", "northward_wind",
+                                           "wind_speed",    "wind_from_direction"};
+    const int id = sample_variable(f, names[how->polar ? 2 + k : k], NC_FLOAT, 2, plane);
+    if (!how->unmapped)
+      sample_text(f, id, "grid_mapping", "crs");
+    if (!how->unnamed)
+      sample_text(f, id, "standard_name", standard[2 * (how->east + how->polar) + k]);
+    else if (how->east)
+      sample_text(f, id, "long_name", k == 0 ? "Eastward wind" : "Northward wind");
     sample_put(f, id, k == 0 ? u : v);
   }
   for (int k = 0; k < 2 && how->has_positions; ++k) {
@@ -84,11 +89,13 @@ static void write_plane(sample_file *f, const plane_file *how)
 
 static void projections_come_with_the_field(void **state)
 {
-  static const plane_file files[] = {{1.0, 0.0, false, false, 0.0, false},
-                                     {1000.0, 0.0, false, true, 0.0, false},
-                                     {1.0, 0.0, true, false, 0.0, false},
-                                     {1000.0, 70000.0, true, true, 0.0, false},
-                                     {1.0, 0.0, true, false, 0.0, true}};
+  static const plane_file files[] = {
+      {.unit = 1.0},
+      {.unit = 1000.0, .has_positions = true},
+      {.unit = 1.0, .east = true},
+      {.unit = 1.0, .east = true, .unnamed = true},
+      {.unit = 1.0, .east = true, .polar = true},
+      {.unit = 1000.0, .offset = 70000.0, .east = true, .has_positions = true}};
   sample_file *f = *state;
   for (size_t n = 0; n < sizeof files / sizeof *files; ++n) {
     write_plane(f, &files[n]);
@@ -116,10 +123,50 @@ static void projections_come_with_the_field(void **state)
 static void positions_go_before_a_wrong_projection(void **state)
 {
   sample_file *f = *state;
-  write_plane(f, &(plane_file){1.0, 0.0, false, true, 25.0, false});
+  write_plane(f, &(plane_file){.unit = 1.0, .has_positions = true, .wrong = 25.0});
   fg_field *field = read_with(f, NULL);
   assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
   assert_null(fg_field_contents(field)->projection);
+  fg_field_destroy(field);
+}
+
+/* Of a plane of unknown projection points lie at their longitudes and latitudes. */
+static void positions_are_the_place_without_a_projection(void **state)
+{
+  sample_file *f = *state;
+  for (int n = 0; n < 5; ++n) {
+    write_plane(f, &(plane_file){.unit = 1.0,
+                                 .has_positions = true,
+                                 .unmapped = true,
+                                 .east = n & 1 || n == 4,
+                                 .unnamed = n & 2,
+                                 .polar = n == 4});
+    fg_field *field = read_with(f, NULL);
+    const fg_field_arrays *a = fg_field_contents(field);
+    size_t found = 0;
+    assert_int_equal(a->scale, FG_SCALE_GEO);
+    for (int i = 0; i < a->size[0] * a->size[1]; ++i) {
+      const double turn = (a->axis[0][i % a->size[0]] - MERIDIAN) * RADIANS;
+      if (isnan(a->velocity[0][i]) || a->axis[1][i / a->size[0]] > 85.0)
+        continue;
+      ++found;
+      const double u = 3.0 * cos(turn) + 4.0 * sin(turn);
+      const double v = 4.0 * cos(turn) - 3.0 * sin(turn);
+      assert_true(fabs((double)a->velocity[0][i] - u) < 0.05);
+      assert_true(fabs((double)a->velocity[1][i] - v) < 0.05);
+    }
+    assert_true(found > 50);
+    fg_field_destroy(field);
+  }
+  write_plane(
+      f,
+      &(plane_file){.unit = 1.0, .has_positions = true, .unmapped = true, .alike = true});
+  fg_field *ideal = read_with(f, NULL);
+  assert_int_equal(fg_field_contents(ideal)->scale, FG_SCALE_MAP);
+  fg_field_destroy(ideal);
+  write_plane(f, &(plane_file){.unit = 1.0, .has_positions = true, .unmapped = true});
+  fg_field *field = read_with(f, &(fg_read_options){.scale = FG_SCALE_MAP});
+  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_MAP);
   fg_field_destroy(field);
 }
 
@@ -177,6 +224,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(projections_come_with_the_field),
       CASE(positions_go_before_a_wrong_projection),
+      CASE(positions_are_the_place_without_a_projection),
       CASE(rotated_poles_are_planes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

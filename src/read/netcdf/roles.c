@@ -211,10 +211,80 @@ const fg__nc_variable *fg__nc_coordinate(const fg__nc_file *file,
   return otherwise;
 }
 
+/* Whether a variable names a coordinate, or xarray lists it for the file. */
+static bool is_named(const fg__nc_file *file, const fg__nc_variable *variable,
+                     const fg__nc_variable *coordinate)
+{
+  char names[FG__NC_TEXT];
+  const fg__nc_variable root = {
+      .owner = variable->owner, .group = file->roots[variable->file], .id = NC_GLOBAL};
+  const fg__nc_variable *of[] = {variable, &root};
+  for (int k = 0; k < 2; ++k)
+    if (fg__nc_text(of[k], "coordinates", names, sizeof names) &&
+        fg__nc_is_listed(names, coordinate->plain_name))
+      return true;
+  return false;
+}
+
+static bool has_dimension(const fg__nc_variable *v, int dimension)
+{
+  int k = 0;
+  while (k < v->rank && v->dimension[k] != dimension)
+    ++k;
+  return k < v->rank;
+}
+
+/* Whether a variable is one number that lies along no dimension of another. */
+static bool is_single(const fg__nc_file *file, const fg__nc_variable *v,
+                      const fg__nc_variable *variable)
+{
+  return v->type >= NC_BYTE && v->type <= NC_UINT64 && v->type != NC_CHAR &&
+         (v->rank == 0 ||
+          (v->rank == 1 && file->dimensions[v->dimension[0]].length == 1 &&
+           !has_dimension(variable, v->dimension[0])));
+}
+
+const fg__nc_variable *fg__nc_single_coordinate(const fg__nc_file *file,
+                                                const fg__nc_variable *variable,
+                                                fg__nc_role role)
+{
+  char text[FG__NC_TEXT], label[FG__NC_TEXT];
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (v->file != variable->file || !is_single(file, v, variable) ||
+        !is_named(file, variable, v) || role_of_attributes(v) != role)
+      continue;
+    fg__nc_text(v, "units", text, sizeof text);
+    const bool date = fg__nc_units(text, label, sizeof label) == FG__NC_DATE;
+    fg__nc_text(v, "standard_name", text, sizeof text);
+    if (role != FG__NC_TIME || (date && strcmp(text, "forecast_reference_time") != 0))
+      return v;
+  }
+  return NULL;
+}
+
 typedef struct claim {
   fg__nc_role role;
   int strength; /* 2: by attributes; 1: by name */
 } claim;
+
+/* Whether a dimension is one of a swath: longitudes lie along it and another of the
+ * variable's, and times only beside them. */
+static bool is_of_swath(const fg__nc_file *file, const fg__nc_variable *variable, int k,
+                        const fg__nc_variable *coordinate)
+{
+  const int dimension = variable->dimension[k];
+  if (strcmp(coordinate->plain_name, file->dimensions[dimension].name) == 0)
+    return false;
+  for (size_t i = 0; i < file->variable_count; ++i) {
+    const fg__nc_variable *v = &file->variables[i];
+    if (v->rank == 2 && v->geographic == FG__NC_X && has_dimension(v, dimension) &&
+        has_dimension(variable, v->dimension[0]) &&
+        has_dimension(variable, v->dimension[1]))
+      return true;
+  }
+  return false;
+}
 
 static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, int k)
 {
@@ -222,6 +292,10 @@ static claim claim_of(const fg__nc_file *file, const fg__nc_variable *variable, 
   claim c = {FG__NC_NO_ROLE, 2};
   if (coordinate)
     c.role = role_of_attributes(coordinate);
+  if (c.role == FG__NC_TIME && is_of_swath(file, variable, k, coordinate)) {
+    coordinate = NULL;
+    c.role = FG__NC_NO_ROLE;
+  }
   if (c.role != FG__NC_NO_ROLE)
     return c;
   c.strength = 1;

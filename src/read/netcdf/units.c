@@ -50,11 +50,11 @@ static const unit UNITS[] = {
     {PRESSURE, 0.0, "dbar", "dbar|decibar"},
     {PRESSURE, 0.0, "bar", "bar"},
     {EAST, 0.0, "°E",
-     "degree_east|degrees_east|degrees "
-     "east|degreeseast|degree_e|degrees_e|degreee|degreese"},
+     "degree_east|degrees_east|degrees east|degrees-east|degreeseast|"
+     "degree_e|degrees_e|degreee|degreese"},
     {NORTH, 0.0, "°N",
-     "degree_north|degrees_north|degrees "
-     "north|degreesnorth|degree_n|degrees_n|degreen|degreesn"},
+     "degree_north|degrees_north|degrees north|degrees-north|degreesnorth|"
+     "degree_n|degrees_n|degreen|degreesn"},
 };
 
 static bool is_one_of(const char *words, const char *word, size_t length)

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 static void units_are_classified_and_written_shortly(void **state)
 {
@@ -42,6 +42,7 @@ static void units_are_classified_and_written_shortly(void **state)
       {"μm", FG__NC_LENGTH, "µm"},
       {"DEGREES EAST", FG__NC_DEGREES_EAST, "°E"},
       {"degrees_east", FG__NC_DEGREES_EAST, "°E"},
+      {"degrees-north", FG__NC_DEGREES_NORTH, "°N"},
       {"degree_N", FG__NC_DEGREES_NORTH, "°N"},
       {"millibar", FG__NC_PRESSURE, "hPa"},
       {"PA", FG__NC_PRESSURE, "Pa"},

@@ -398,11 +398,14 @@ fg_status fg__nc_line(double *out, const fg__nc_file *file,
                       const fg__nc_variable *variable)
 {
   const packing p = find_packing(variable);
-  const size_t count = file->dimensions[variable->dimension[0]].length;
-  const size_t start = 0;
+  size_t start[FG__NC_RANK] = {0}, size[FG__NC_RANK], count = 1;
+  for (int k = 0; k < variable->rank; ++k) {
+    size[k] = file->dimensions[variable->dimension[k]].length;
+    count *= size[k];
+  }
   if (file->exhausted)
     return FG_STATUS_MEMORY;
-  const int error = fg__nc_fetch(variable, &start, &count, out);
+  const int error = fg__nc_fetch(variable, start, size, out);
   if (error)
     return fg__nc_fail(file->context, variable->path, variable->name, error);
   number_sink to = {&p, out};

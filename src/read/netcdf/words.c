@@ -1,6 +1,6 @@
 /* Texts of captions: the vector's title, its time and its level. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -79,11 +79,13 @@ static bool is_empty(const char *word)
          strcasecmp(word, "momentum") == 0;
 }
 
-/* "Ocean current along" is "Ocean current". */
+/* "Ocean current along" is "Ocean current", as is "Ocean current:". */
 static void cut_fillers_at_end(char *text)
 {
   for (char *last; (last = strrchr(text, ' ')) && is_filler(last + 1);)
     *last = '\0';
+  for (size_t n = strlen(text); n > 0 && strchr(":,;-", text[n - 1]); --n)
+    text[n - 1] = '\0';
 }
 
 static bool is_shouted(const char *word)
@@ -126,8 +128,11 @@ static bool join_shared(const char *of_u, const char *of_v, char *out, size_t si
   return telling;
 }
 
-static void cut_location(char *standard_name)
+/* What a standard name tells of the grid. */
+static void cut_grid(char *standard_name)
 {
+  if (strncmp(standard_name, "grid_", 5) == 0)
+    memmove(standard_name, standard_name + 5, strlen(standard_name + 5) + 1);
   char *at = strstr(standard_name, "_at_u_location");
   at = at ? at : strstr(standard_name, "_at_v_location");
   if (at)
@@ -142,8 +147,8 @@ void fg__nc_title(const fg__nc_pair *pair, int components, char *out, size_t siz
     char of_v[FG__NC_TEXT];
     fg__nc_text(pair->component[0], attribute[a], of_u, sizeof of_u);
     fg__nc_text(pair->component[1], attribute[a], of_v, sizeof of_v);
-    cut_location(of_u);
-    cut_location(of_v);
+    cut_grid(of_u);
+    cut_grid(of_v);
     if (join_shared(of_u, of_v, out, size))
       return;
   }
@@ -171,7 +176,17 @@ static const char *kind_of_height(const fg__nc_variable *coordinate)
   return coordinate->plain_name;
 }
 
-/* Writes a coordinate's value as text. */
+/* Whether units say no more than that values are numbers of levels or layers. */
+static bool are_none(const char *units)
+{
+  static const char *const known[] = {"", "1", "level", "levels", "layer", "layers"};
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strcasecmp(units, known[i]) == 0)
+      return true;
+  return false;
+}
+
+/* Writes a coordinate's value as text, pressures of the air in hPa. */
 static void write_words(const fg__nc_variable *coordinate, double value, char *out,
                         size_t size)
 {
@@ -184,16 +199,23 @@ static void write_words(const fg__nc_variable *coordinate, double value, char *o
   if ((quantity == FG__NC_DATE && fg__nc_date(value, units, calendar, out, size)) ||
       fg__nc_duration(value, units, out, size))
     return;
+  if (quantity == FG__NC_PRESSURE && strcmp(label, "Pa") == 0 && fabs(value) >= 100.0) {
+    value /= 100.0;
+    snprintf(label, sizeof label, "hPa");
+  }
+  char number[32]; /* all digits of a whole one, as of 19820716 */
+  snprintf(number, sizeof number,
+           fabs(value) < 1e15 && value == floor(value) ? "%.0f" : "%g", value);
   if (quantity == FG__NC_PRESSURE)
-    snprintf(out, size, "%g %s", value, label);
+    snprintf(out, size, "%s %s", number, label);
   else if (quantity == FG__NC_LENGTH)
-    snprintf(out, size, "%s %g %s", kind_of_height(coordinate), value, label);
+    snprintf(out, size, "%s %s %s", kind_of_height(coordinate), number, label);
   else if (strncasecmp(units, "month", 5) == 0)
-    snprintf(out, size, "month %g", value);
-  else if (units[0] == '\0' || strcmp(units, "1") == 0)
-    snprintf(out, size, "%s %g", coordinate->plain_name, value);
+    snprintf(out, size, "month %s", number);
+  else if (are_none(units))
+    snprintf(out, size, "%s %s", coordinate->plain_name, number);
   else
-    snprintf(out, size, "%s %g %s", coordinate->plain_name, value, units);
+    snprintf(out, size, "%s %s %s", coordinate->plain_name, number, units);
 }
 
 fg_status fg__nc_index_words(const fg__nc_file *file, const fg__nc_variable *coordinate,
@@ -300,10 +322,11 @@ fg_status fg__nc_words_find(fg__nc_words *out, const fg__nc_file *file,
 {
   fg_status status = FG_STATUS_OK;
   *out = (fg__nc_words){{0}, {0}, {0}, {0}};
-  if (grid->time >= 0)
+  if (grid->time >= 0 || grid->time_variable)
     status = fg__nc_index_words(file, grid->time_variable, grid->time_name,
                                 (size_t)options->time, out->time, sizeof out->time);
-  if (grid->level >= 0 && grid->dimension == 2 && status == FG_STATUS_OK)
+  if ((grid->level >= 0 || grid->level_variable) && grid->dimension == 2 &&
+      status == FG_STATUS_OK)
     status = fg__nc_index_words(file, grid->level_variable, grid->level_name,
                                 (size_t)options->level, out->level, sizeof out->level);
   if (status == FG_STATUS_OK)

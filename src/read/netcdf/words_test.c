@@ -26,7 +26,7 @@ static void assert_title(sample_file *f, const naming *n)
   fg_field_destroy(field);
 }
 
-/* As NEMO, MPAS-Ocean, FVCOM, WRF, POP and ROMS write them. */
+/* As NEMO, MPAS-Ocean, FVCOM, WRF, POP, ROMS and altimetry's products write them. */
 static void titles_are_without_directions(void **state)
 {
   static const naming cases[] = {
@@ -44,14 +44,39 @@ static void titles_are_without_directions(void **state)
       {"long_name", "u-momentum component", "v-momentum component", "the file"},
       {"long_name", "vertically integrated u-momentum component",
        "vertically integrated v-momentum component", "vertically integrated momentum"},
+      {"long_name", "Absolute geostrophic velocity: zonal component",
+       "Absolute geostrophic velocity: meridian component",
+       "Absolute geostrophic velocity"},
+      {"standard_name", "grid_eastward_wind", "grid_northward_wind", "wind"},
       {"long_name", "Wind speed to the east", "Wind speed to the north", "Wind speed"}};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n)
     assert_title(*state, &cases[n]);
 }
 
+/* Numbers that stand for dates differ in their last digits; the unit "level" (CESM) tells
+ * nothing. */
+static void numbers_of_times_and_levels(void **state)
+{
+  static const double day[] = {19900101.0}, lev[] = {992.5};
+  const double values[COUNT] = {1.0, 2.0, 3.0};
+  sample_file *f = *state;
+  sample_begin(f, 0);
+  const int all[4] = {sample_axis(f, "time", 1, day, "yyyymmdd"),
+                      sample_axis(f, "lev", 1, lev, "level"),
+                      sample_axis(f, "y", NY, Y, "km"), sample_axis(f, "x", NX, X, "km")};
+  for (int k = 0; k < 2; ++k)
+    sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 4, all), values);
+  sample_end(f);
+  fg_field *field = read_with(f, NULL);
+  assert_string_equal(fg_field_contents(field)->time, "time 19900101 yyyymmdd");
+  assert_string_equal(fg_field_contents(field)->level, "lev 992.5");
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(
-      titles_are_without_directions, sample_set_up, sample_tear_down)};
+#define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
+  const struct CMUnitTest tests[] = {CASE(titles_are_without_directions),
+                                     CASE(numbers_of_times_and_levels)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,9 +131,23 @@ bool fg__nc_find_healpix(fg__nc_unstructured *out, fg__nc_search *search)
   return true;
 }
 
-/* Longitude and latitude along a dimension: those that the variable names, else the
- * file's first. */
-static bool find_positions(const fg__nc_variable *out[2], const fg__nc_search *search)
+/* Whether a variable lies along the vectors' dimension; or, of trajectories, along both
+ * of theirs. */
+static bool lies_along(const fg__nc_search *search, const fg__nc_variable *v, int rank)
+{
+  const fg__nc_variable *u = search->u;
+  const int first = search->k - rank + 1;
+  for (int k = 0; k < rank; ++k)
+    if (v->rank != rank ||
+        !fg__nc_same_dimension(search->file, v->dimension[k], u->dimension[first + k]))
+      return false;
+  return fg__nc_is_array(v);
+}
+
+/* Longitude and latitude along a dimension, or two: those that the variable names, else
+ * the file's first. */
+static bool find_positions(const fg__nc_variable *out[2], const fg__nc_search *search,
+                           int rank)
 {
   char names[FG__NC_TEXT];
   fg__nc_text(search->u, "coordinates", names, sizeof names);
@@ -141,10 +155,7 @@ static bool find_positions(const fg__nc_variable *out[2], const fg__nc_search *s
     out[0] = out[1] = NULL;
     for (size_t n = 0; n < search->file->variable_count; ++n) {
       const fg__nc_variable *v = &search->file->variables[n];
-      if (v->rank != 1 || !fg__nc_is_array(v) ||
-          !fg__nc_same_dimension(search->file, v->dimension[0],
-                                 search->u->dimension[search->k]) ||
-          (named && !strstr(names, v->plain_name)))
+      if (!lies_along(search, v, rank) || (named && !strstr(names, v->plain_name)))
         continue;
       const fg__nc_role role = fg__nc_angle_role(v);
       if (role != FG__NC_NO_ROLE && !out[role])
@@ -172,9 +183,35 @@ static bool find_bounds(fg__nc_unstructured *out, const fg__nc_search *search)
   return true;
 }
 
+/* Whether places have times of their own: dates along their dimensions. */
+static bool have_times(const fg__nc_search *search, int rank)
+{
+  char text[FG__NC_TEXT], label[FG__NC_TEXT];
+  for (size_t n = 0; n < search->file->variable_count; ++n) {
+    const fg__nc_variable *v = &search->file->variables[n];
+    if (lies_along(search, v, rank) && fg__nc_text(v, "units", text, sizeof text) &&
+        fg__nc_units(text, label, sizeof label) == FG__NC_DATE)
+      return true;
+  }
+  return false;
+}
+
+/* Places of no mesh, those of all times together. */
+static void take_points(fg__nc_unstructured *out, const fg__nc_search *search,
+                        const fg__nc_variable *const at[2], int rank)
+{
+  out->node[0] = at[0];
+  out->node[1] = at[1];
+  out->centre[0] = out->centre[1] = NULL;
+  snprintf(out->rule, sizeof out->rule,
+           "east and north, on points%s at '%.40s', '%.40s'%s, triangulated",
+           rank == 2 ? " of trajectories" : "", at[0]->plain_name, at[1]->plain_name,
+           have_times(search, rank) ? " at all their times" : "");
+}
+
 bool fg__nc_find_coordinates(fg__nc_unstructured *out, fg__nc_search *search)
 {
-  if (!find_positions(out->centre, search))
+  if (!find_positions(out->centre, search, 1))
     return false;
   const fg__nc_variable *x = out->centre[0], *y = out->centre[1];
   if (find_bounds(out, search)) {
@@ -187,11 +224,24 @@ bool fg__nc_find_coordinates(fg__nc_unstructured *out, fg__nc_search *search)
     return true;
   }
   out->bounds[0] = out->bounds[1] = NULL;
-  out->node[0] = x;
-  out->node[1] = y;
-  out->centre[0] = out->centre[1] = NULL;
-  snprintf(out->rule, sizeof out->rule,
-           "east and north, on points at '%.40s', '%.40s', triangulated", x->plain_name,
-           y->plain_name);
+  take_points(out, search, (const fg__nc_variable *const[]){x, y}, 1);
+  return true;
+}
+
+/* CF's feature type trajectory as an array [trajectories][places] (appendix H.4.1), which
+ * is no curvilinear grid. */
+bool fg__nc_find_trajectories(fg__nc_unstructured *out, fg__nc_search *search)
+{
+  char text[FG__NC_TEXT];
+  const fg__nc_variable *at[2], *u = search->u;
+  const fg__nc_variable root = {
+      .owner = u->owner, .group = search->file->roots[u->file], .id = NC_GLOBAL};
+  if (u->rank != 2 || search->k != 1 ||
+      !fg__nc_text(&root, "featureType", text, sizeof text) ||
+      strcasecmp(text, "trajectory") != 0 || !find_positions(at, search, 2))
+    return false;
+  out->of_trajectories = true;
+  out->beside = u->dimension[0];
+  take_points(out, search, at, 2);
   return true;
 }

@@ -65,14 +65,22 @@ bool fg__nc_named_positions(const fg__nc_variable *out[2], const fg__nc_file *fi
   return true;
 }
 
-/* A dimension that is time is none of places. */
-static bool may_be_places(const fg__nc_search *search)
+/* Whether a dimension may be one of places, which time is not; but it may be that of a
+ * vector's only dimension, or of all but levels, where each time has its place, as those
+ * of a drifter. */
+static bool may_be_places(const fg__nc_search *search, bool of_times)
 {
   int position[FG__NC_ROLES];
-  const int dimension = search->u->dimension[search->k];
-  fg__nc_roles(position, search->file, search->u);
-  return position[FG__NC_TIME] != search->k &&
-         search->file->dimensions[dimension].length > 2;
+  const fg__nc_variable *u = search->u;
+  if (search->file->dimensions[u->dimension[search->k]].length < 3)
+    return false;
+  fg__nc_roles(position, search->file, u);
+  if (position[FG__NC_TIME] != search->k)
+    return true;
+  if (!of_times)
+    return false;
+  fg__nc_roles_beside(position, search->file, u, search->k);
+  return u->rank == 1 || (u->rank == 2 && position[FG__NC_LEVEL] >= 0);
 }
 
 /* Names the mesh of a variable where the file lacks it: by its attribute `mesh` of
@@ -97,14 +105,19 @@ static void name_absent(fg__nc_search *search)
 
 static bool recognise(fg__nc_unstructured *out, fg__nc_search *search)
 {
-  typedef bool rule(fg__nc_unstructured *, fg__nc_search *);
-  static rule *const rules[] = {fg__nc_find_ugrid, fg__nc_find_healpix, fg__nc_find_model,
-                                fg__nc_find_coordinates};
+  static const struct {
+    bool (*find)(fg__nc_unstructured *, fg__nc_search *);
+    bool of_times; /* also along times that have places */
+  } rules[] = {{fg__nc_find_ugrid, false},
+               {fg__nc_find_healpix, false},
+               {fg__nc_find_model, false},
+               {fg__nc_find_coordinates, true},
+               {fg__nc_find_trajectories, true}};
   for (size_t n = 0; n < sizeof rules / sizeof *rules && !search->lacks[0]; ++n)
     for (int k = 0; k < search->u->rank; ++k) {
       *out = (fg__nc_unstructured){.dimension = search->u->dimension[k]};
       search->k = k;
-      if (may_be_places(search) && rules[n](out, search))
+      if (may_be_places(search, rules[n].of_times) && rules[n].find(out, search))
         return true;
     }
   if (!search->lacks[0])
@@ -136,23 +149,37 @@ bool fg__nc_unstructured_elsewhere(const fg__nc_file *file, const fg__nc_variabl
          fg__nc_unstructured_file(&mesh) != v->file;
 }
 
+static fg__nc_axis axis_along(const fg__nc_file *file, const fg__nc_variable *v, int k)
+{
+  return (fg__nc_axis){.dimension = v->dimension[k],
+                       .position = k,
+                       .size = file->dimensions[v->dimension[k]].length};
+}
+
 /* A second axis of length 1 that is none of the variable's makes it a plane to the
  * readers of values. */
 bool fg__nc_unstructured_axis(fg__nc_grid *grid, const fg__nc_file *file,
-                              const fg__nc_variable *v, int dimension)
+                              const fg__nc_variable *v, const fg__nc_unstructured *mesh)
 {
   int position[FG__NC_ROLES], k = 0;
-  while (k < v->rank && !fg__nc_same_dimension(file, v->dimension[k], dimension))
+  while (k < v->rank && !fg__nc_same_dimension(file, v->dimension[k], mesh->dimension))
     ++k;
-  if (k == v->rank || fg__nc_roles_beside(position, file, v, k) >= 0)
+  if (k == v->rank)
     return false;
-  grid->axis[0] = (fg__nc_axis){.dimension = v->dimension[k],
-                                .position = k,
-                                .size = file->dimensions[v->dimension[k]].length};
-  grid->axis[1] = (fg__nc_axis){.dimension = -1, .position = v->rank, .size = 1};
-  grid->samples = grid->axis[0].size;
-  grid->time = position[FG__NC_TIME];
-  grid->level = position[FG__NC_LEVEL];
+  grid->axis[0] = axis_along(file, v, k);
+  if (mesh->of_trajectories) {
+    if (v->rank != 2 || !fg__nc_same_dimension(file, v->dimension[1 - k], mesh->beside))
+      return false;
+    grid->axis[1] = axis_along(file, v, 1 - k);
+    grid->time = grid->level = -1;
+  } else {
+    if (fg__nc_roles_beside(position, file, v, k) >= 0)
+      return false;
+    grid->axis[1] = (fg__nc_axis){.dimension = -1, .position = v->rank, .size = 1};
+    grid->time = position[FG__NC_TIME];
+    grid->level = position[FG__NC_LEVEL];
+  }
+  grid->samples = grid->axis[0].size * grid->axis[1].size;
   fg__nc_set_index_axes(grid, file, v);
   return true;
 }
@@ -203,11 +230,11 @@ static void check_pair(fg__nc_grid *grid, const fg__nc_file *file,
 {
   fg__nc_unstructured *mesh = grid->unstructured;
   const fg__nc_variable *u = pair->component[0], *v = pair->component[1];
-  if (!fg__nc_unstructured_axis(grid, file, u, mesh->dimension))
+  if (!fg__nc_unstructured_axis(grid, file, u, mesh))
     fg__set_unusable(grid->unusable,
                      "'%.60s' has a dimension that is neither time nor level",
                      u->plain_name);
-  else if (!fg__nc_unstructured_axis(&mesh->of_v, file, v, mesh->dimension) ||
+  else if (!fg__nc_unstructured_axis(&mesh->of_v, file, v, mesh) ||
            mesh->of_v.times != grid->times || mesh->of_v.levels != grid->levels)
     fg__set_unusable(grid->unusable, "'%.60s' does not lie on the dimensions of '%.60s'",
                      v->plain_name, u->plain_name);

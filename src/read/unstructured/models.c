@@ -1,4 +1,5 @@
-/* Meshes of models by their names: MPAS, FVCOM, ADCIRC, and grid files of ICON. */
+/* Meshes of models by their names: MPAS, FVCOM, ADCIRC, WAVEWATCH III, and grid files of
+ * ICON. */
 #include "read/unstructured/unstructured.h"
 
 #include <stdio.h>
@@ -118,6 +119,7 @@ static const known_mesh KNOWN[] = {
     {"nv", {{"lon", "lat"}, {"x", "y"}}, {{"lonc", "latc"}, {"xc", "yc"}}},
     {"element", {{"lon", "lat"}, {"x", "y"}}, {{NULL, NULL}, {NULL, NULL}}},
     {"tri", {{"lon", "lat"}, {"x", "y"}}, {{NULL, NULL}, {NULL, NULL}}},
+    {"tri", {{"longitude", "latitude"}, {NULL, NULL}}, {{NULL, NULL}, {NULL, NULL}}},
     {"vertex_of_cell",
      {{"vlon", "vlat"}, {NULL, NULL}},
      {{"clon", "clat"}, {NULL, NULL}}},

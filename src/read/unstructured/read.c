@@ -75,7 +75,7 @@ static fg_status apply_mask(float *velocity, const request *r)
     return fg__fail(r->file->context, FG_STATUS_ARGUMENT,
                     "%s: has no variable '%s' for the mask", r->file->paths[0], name);
   if (!fg__nc_is_array(v) || v->rank >= FG__NC_RANK ||
-      !fg__nc_unstructured_axis(&grid, r->file, v, mesh->dimension))
+      !fg__nc_unstructured_axis(&grid, r->file, v, mesh))
     return fg__fail(r->file->context, FG_STATUS_ARGUMENT,
                     "%s: the mask '%s' does not lie on the mesh of '%s'", v->path,
                     v->name, r->pair->component[0]->name);

@@ -41,10 +41,12 @@ fg_status fg__nc_positions_of(double *out[2], const fg__nc_file *file,
                               const fg__nc_variable *const at[2], size_t count)
 {
   for (int k = 0; k < 2; ++k) {
-    if (length_of(file, at[k], 0) != count)
+    const size_t numbers =
+        length_of(file, at[k], 0) * (at[k]->rank > 1 ? length_of(file, at[k], 1) : 1);
+    if (numbers != count)
       return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                       "%s: '%s' has %zu numbers instead of %zu", at[k]->path, at[k]->name,
-                      length_of(file, at[k], 0), count);
+                      numbers, count);
     out[k] = fg__allocate(count, sizeof *out[k]);
     if (!out[k])
       return fg__fail_memory(file->context, "positions", count * sizeof *out[k]);

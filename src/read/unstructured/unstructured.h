@@ -17,6 +17,8 @@ typedef enum fg__nc_location {
 struct fg__nc_unstructured {
   fg__nc_location location;
   int dimension;                       /* of the vectors, of the file's */
+  bool of_trajectories;                /* in arrays [trajectories][places] */
+  int beside;                          /* the trajectories' dimension, where there is */
   const fg__nc_variable *connectivity; /* nodes of faces, 2 dimensions; NULL: none */
   int faces_along;                     /* which of its dimensions is the faces' */
   int start;                           /* its number of the first node, if it says none */
@@ -42,10 +44,11 @@ fg_status fg__nc_unstructured_find(fg__nc_grid *grid, const fg__nc_file *file,
                                    const fg_read_options *options);
 void fg__nc_unstructured_destroy(fg__nc_unstructured *mesh);
 
-/* Makes a variable's dimension that is, or is as long as, `dimension` the grid's axis.
- * False where there is none, or one that is neither that nor time nor level. */
+/* Makes a variable's dimension that is, or is as long as, that of the mesh the grid's
+ * axis, and that of its trajectories the other. False where there is none, or one that is
+ * neither these nor time nor level. */
 bool fg__nc_unstructured_axis(fg__nc_grid *grid, const fg__nc_file *file,
-                              const fg__nc_variable *v, int dimension);
+                              const fg__nc_variable *v, const fg__nc_unstructured *mesh);
 
 /* Whether a variable's only dimension is one of an unstructured mesh, perhaps one that
  * lacks something. */
@@ -60,8 +63,8 @@ bool fg__nc_unstructured_elsewhere(const fg__nc_file *file, const fg__nc_variabl
 /* The steps of that: whether variable u lies on such a mesh, along its dimension number
  * k. ugrid.c: the attributes of the UGRID conventions, 1.0. models.c: names of MPAS,
  * FVCOM, ADCIRC, ICON. coordinates.c: longitude and latitude along one dimension, with
- * bounds or without; HEALPix. Writes what is lacking into `lacks`, which then is why the
- * pair can not be read. */
+ * bounds or without, or along trajectories; HEALPix. Writes what is lacking into `lacks`,
+ * which then is why the pair can not be read. */
 typedef struct fg__nc_search {
   const fg__nc_file *file;
   const fg__nc_variable *u;
@@ -74,6 +77,7 @@ bool fg__nc_find_ugrid(fg__nc_unstructured *out, fg__nc_search *search);
 bool fg__nc_find_model(fg__nc_unstructured *out, fg__nc_search *search);
 bool fg__nc_find_healpix(fg__nc_unstructured *out, fg__nc_search *search);
 bool fg__nc_find_coordinates(fg__nc_unstructured *out, fg__nc_search *search);
+bool fg__nc_find_trajectories(fg__nc_unstructured *out, fg__nc_search *search);
 
 /* Longitude (X), latitude (Y) or neither, in degrees or radians. */
 fg__nc_role fg__nc_angle_role(const fg__nc_variable *v);

@@ -113,6 +113,58 @@ static void points_alone(void **state)
   read_and_compare(f, NULL, 4e-3, "on points at 'lon', 'lat', triangulated");
 }
 
+/* Places at times, one after the other or as an array [trajectories][places], which is no
+ * grid. */
+static void points_of_trajectories(void **state)
+{
+  sample_file *f = *state;
+  for (int rank = 1; rank <= 2; ++rank) {
+    example_mesh m = mesh_made(0, false);
+    const size_t along = rank == 1 ? m.faces : SIDE;
+    double values[5][SIDE * SIDE];
+    for (size_t n = 0; n < m.faces; ++n) {
+      double flow[2];
+      const size_t from = n * 7 % m.faces; /* neighbours lie apart */
+      flow_at(flow, m.centre[0][from], m.centre[1][from]);
+      for (int k = 0; k < 2; ++k) {
+        values[k][n] = m.centre[k][from];
+        values[2 + k][n] = flow[k];
+      }
+      values[4][n] = (double)n;
+    }
+    sample_begin(f, 0);
+    const int dimension[2] = {sample_dimension(f, "trajectory", SIDE),
+                              sample_dimension(f, "obs", along)};
+    static const char *const names[] = {"lon", "lat", "u", "v", "time"};
+    static const char *const units[] = {"degrees_east", "degrees_north", "m/s", "m/s",
+                                        "days since 2020-01-01"};
+    sample_text(f, NC_GLOBAL, "featureType", "trajectory");
+    for (int k = 0; k < 5; ++k)
+      put(f, names[k], NC_DOUBLE, rank, dimension + 2 - rank, values[k],
+          (attributes){"units", units[k], NULL, NULL});
+    sample_end(f);
+    read_and_compare(f, NULL, 4e-3,
+                     rank == 1 ? "on points at 'lon', 'lat' at all their times"
+                               : "on points of trajectories at 'lon', 'lat' at all");
+  }
+}
+
+/* Without the mesh the points would be joined across its holes. */
+static void wavewatch(void **state)
+{
+  sample_file *f = *state;
+  example_mesh m = mesh_made(1, true);
+  double *const node[2] = {m.node[0], m.node[1]};
+  sample_begin(f, NC_NETCDF4);
+  const int nodes = sample_dimension(f, "node", NODES);
+  put_corners(f, "tri", &m, sample_dimension(f, "element", m.faces),
+              sample_dimension(f, "noel", CORNERS), false);
+  put_places(f, (const char *const[]){"longitude", "latitude"}, nodes, NODES, node, 1.0);
+  put_flow(f, (const char *const[]){"uwnd", "vwnd"}, nodes, NODES, node, NULL, NOTHING);
+  sample_end(f);
+  read_and_compare(f, NULL, 2e-3, "on the nodes of a mesh of triangles ('tri' with 'lon");
+}
+
 /* Radians without a word about it, polygons whose rows are filled with anything; numbers
  * along the axes of space are no map's. */
 static void mpas(void **state)
@@ -395,9 +447,17 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(ugrid),         CASE(cells_with_bounds), CASE(points_alone),
-      CASE(mpas),          CASE(fvcom_in_metres),   CASE(healpix_numbers),
-      CASE(healpix_files), CASE(faults_are_named),  CASE(vectors_of_one_variable),
+      CASE(points_of_trajectories),
+      CASE(ugrid),
+      CASE(cells_with_bounds),
+      CASE(points_alone),
+      CASE(mpas),
+      CASE(wavewatch),
+      CASE(fvcom_in_metres),
+      CASE(healpix_numbers),
+      CASE(healpix_files),
+      CASE(faults_are_named),
+      CASE(vectors_of_one_variable),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* Dates that files have as text, one for each index of a dimension: Times of WRF,
  * "2010-07-16_12:00:00", and of FVCOM, xtime of MPAS. */
 #include "base/memory.h"
-#include "read/netcdf/netcdf.h"
+#include "read/netcdf/time/dates.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -43,6 +43,29 @@ static void assert_time(sample_file *f, int time, const char *words)
   fg_field_destroy(field);
 }
 
+/* FVCOM's modified Julian days in single precision are minutes off. */
+static void texts_go_before_days_in_float(void **state)
+{
+  static const char *const texts[TIMES] = {"2014-12-09T00:00:00", "2014-12-09T01:00:00",
+                                           "2014-12-09T02:00:00"};
+  static const double days[TIMES] = {57000.0, 57000.0 + 1.0 / 24.0, 57000.0 + 2.0 / 24.0};
+  static const char *const words[] = {"2014-12-09 01:00", "2014-12-09 01:30"};
+  sample_file *f = *state;
+  for (int exact = 0; exact < 2; ++exact) {
+    int dimension;
+    make_timed(f, NC_NETCDF4, "Times", texts);
+    nc_must(nc_open(f->path, NC_WRITE, &f->id));
+    nc_must(nc_inq_dimid(f->id, "Time", &dimension));
+    const int id =
+        sample_variable(f, "Time", exact ? NC_DOUBLE : NC_FLOAT, 1, &dimension);
+    sample_text(f, id, "units",
+                exact ? "days since 1858-11-17 00:30" : "days since 1858-11-17");
+    sample_put(f, id, days);
+    sample_end(f);
+    assert_time(f, 1, words[exact]);
+  }
+}
+
 static void dates_are_read_as_they_are_written(void **state)
 {
   sample_file *f = *state;
@@ -142,6 +165,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(dates_are_read_as_they_are_written),
+      CASE(texts_go_before_days_in_float),
       CASE(texts_that_are_no_dates_are_passed_over),
       CASE(dates_stand_beside_steps),
   };

@@ -1,7 +1,7 @@
 /* Times as dates: "hours since 1900-01-01 00:00" (CF conventions, section 4.4). */
 #include "file/number_text.h"
-#include "read/netcdf/netcdf.h"
 #include "read/netcdf/time/calendar.h"
+#include "read/netcdf/time/dates.h"
 
 #include <ctype.h>
 #include <math.h>

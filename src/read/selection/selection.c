@@ -2,7 +2,7 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "file/number_text.h"
-#include "read/axis_units.h"
+#include "read/selection/axis_units.h"
 #include "read/time_words.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-#include "read/axis_units.h"
+#include "read/selection/axis_units.h"
 
 #include <stddef.h>
 #include <string.h>
