@@ -328,12 +328,32 @@ static void long_texts_are_whole(void **state)
   free(svg);
 }
 
+/* Not a row or column more, which would stay transparent. */
+static void a_file_has_the_pixels_that_are_drawn(void **state)
+{
+  (void)state;
+  static const double cube[3] = {1.0, 1.0, 1.0};
+  for (int height = 180; height < 240; ++height) {
+    const fg_solid_options options = {.width = height + 61,
+                                      .height = height,
+                                      .pixels_per_point = 120.0 / 72.0,
+                                      .has_view = true,
+                                      .azimuth = 30.0,
+                                      .elevation = 22.0};
+    unsigned char *png = (unsigned char *)write_picture("a.png", cube, &options);
+    assert_int_equal(png[18] << 8 | png[19], height + 61);
+    assert_int_equal(png[22] << 8 | png[23], height);
+    free(png);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(small_pictures_are_read),
       cmocka_unit_test(texts_of_svg_stay_texts),
       cmocka_unit_test(long_texts_are_whole),
+      cmocka_unit_test(a_file_has_the_pixels_that_are_drawn),
       cmocka_unit_test(texts_keep_apart),
       cmocka_unit_test(both_numbers_of_a_corner_are_there),
       cmocka_unit_test(a_shared_number_of_a_corner_is_there_once),

@@ -97,6 +97,13 @@ static cairo_status_t keep_bytes(void *closure, const unsigned char *bytes,
   return CAIRO_STATUS_SUCCESS;
 }
 
+/* Of a length that was itself made from whole pixels. */
+static int count_pixels(double length)
+{
+  static const double rounding = 1e-6;
+  return (int)fmax(ceil(length - rounding), 1.0);
+}
+
 static cairo_surface_t *create_surface(fg__surface_file *page_surface, double width,
                                        double height, double pixels, const char *title)
 {
@@ -115,9 +122,8 @@ static cairo_surface_t *create_surface(fg__surface_file *page_surface, double wi
       cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
     return surface;
   }
-  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
-                                    (int)fmax(ceil(width * pixels), 1.0),
-                                    (int)fmax(ceil(height * pixels), 1.0));
+  return cairo_image_surface_create(CAIRO_FORMAT_ARGB32, count_pixels(width * pixels),
+                                    count_pixels(height * pixels));
 }
 
 static fg_status status_of(fg_context *context, cairo_status_t trouble,
