@@ -80,9 +80,10 @@ FG_API int fg_icons_dropped(const fg_icons *icons);
 FG_API const char *fg_icons_projection(const fg_icons *icons);
 
 /* Least and largest speed, the ends of a colour key, in the field's units; 0, 0 without
- * icons. Of 8 icons or more, outliers do not count, which would leave the others a small
- * part of the colours: those faster than the upper quartile by more than 3 times the
- * distance between the quartiles (Tukey 1977). */
+ * icons, and the largest for both where they differ by less than a ten-thousandth. Of 8
+ * icons or more, outliers do not count, which would leave the others a small part of the
+ * colours: those faster than the upper quartile by more than 3 times the distance between
+ * the quartiles (Tukey 1977). */
 FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
 
 /* Outline of an icon as a closed polygon, the first vertex not repeated; of placed icons

@@ -10,6 +10,9 @@ enum { FEWEST = 8 };
  * "far out". */
 static const double FENCE = 3.0;
 
+/* Speeds that differ by less than this share are the same, but for interpolation. */
+static const double EQUAL = 1e-4;
+
 /* Bisections until a quartile is known to a share of 1e-9 of the range. */
 enum { BISECTIONS = 30 };
 
@@ -53,12 +56,14 @@ void fg_icons_speed_range(double range[2], const fg_icons *icons)
     range[1] = count ? fmax(range[1], speed) : speed;
     ++count;
   }
+  if (range[1] - range[0] < EQUAL * range[1])
+    range[0] = range[1];
   if (count < FEWEST || count < fg_icons_count(icons))
     return;
   double low = quantile(icons, 0.25, range[0], range[1]);
   double high = quantile(icons, 0.75, range[0], range[1]);
   double fence = high + FENCE * (high - low);
-  /* most speeds are the same to rounding: there is no scale to measure by */
-  if (high - low > 1e-6 * high && range[1] > fence)
+  /* most speeds are the same: there is no scale to measure by */
+  if (high - low > EQUAL * high && range[1] > fence)
     range[1] = largest_up_to(icons, fence);
 }

@@ -56,6 +56,10 @@ static void one_far_out_does_not_rule_the_others(void **state)
 static void few_or_equal_speeds_have_no_outliers(void **state)
 {
   (void)state;
+  const double interpolated[] = {0.99998, 0.99995, 0.99998, 0.99991};
+  assert_range(interpolated, 4, 0.99998, 0.99998);
+  const double near[] = {0.9998, 0.9999, 1.0, 0.9995};
+  assert_range(near, 4, 0.9995, 1.0);
   const double few[] = {2, 3, 4, 3, 2, 90, 3};
   assert_range(few, 7, 2, 90);
   const double equal[] = {5, 5, 5, 5, 5, 5, 5, 5, 5, 8};
