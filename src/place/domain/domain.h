@@ -27,8 +27,8 @@ typedef struct fg__place_domain {
   fg__place_subdomain *subdomains;
   int subdomain_count;
   double whole; /* area or volume of the domain */
-  double
-      measure; /* of what counts: less than the whole where half of it is dead or still */
+  /* of what counts: less than the whole where half of it is dead or still */
+  double measure;
   double greatest;                       /* speed */
   double median, fast, root_mean_square; /* fast: exceeded by a twentieth */
   bool dead; /* most of the domain hardly moves: speed weighs */
