@@ -81,20 +81,23 @@ static fg__page_sides outer_sides(const fg__page_plan *plan, int k)
                           .top = k < plan->columns};
 }
 
+static void take_up(fg__margins *out, const fg__page_box *frame, const fg__page_box *box)
+{
+  out->left = fmax(out->left, frame->x0 - box->x0);
+  out->right = fmax(out->right, box->x1 - frame->x1);
+  out->top = fmax(out->top, frame->y0 - box->y0);
+  out->bottom = fmax(out->bottom, box->y1 - frame->y1);
+}
+
 /* What the texts and ticks of a panel take up round its frame. */
 static fg__margins taken(const fg__page *panel)
 {
-  const fg__page_box *frame = &panel->frame;
   fg__margins out = {0.0, 0.0, 0.0, 0.0};
-  for (int k = 0; k < panel->text_count + panel->line_count; ++k) {
-    const fg__page_line *line = &panel->line[k - panel->text_count];
-    const fg__page_box box = k < panel->text_count
-                                 ? panel->text[k].box
-                                 : (fg__page_box){line->x0, line->y0, line->x1, line->y1};
-    out.left = fmax(out.left, frame->x0 - box.x0);
-    out.right = fmax(out.right, box.x1 - frame->x1);
-    out.top = fmax(out.top, frame->y0 - box.y0);
-    out.bottom = fmax(out.bottom, box.y1 - frame->y1);
+  for (int k = 0; k < panel->text_count; ++k)
+    take_up(&out, &panel->frame, &panel->text[k].box);
+  for (int k = 0; k < panel->line_count; ++k) {
+    const fg__page_line *line = &panel->line[k];
+    take_up(&out, &panel->frame, &(fg__page_box){line->x0, line->y0, line->x1, line->y1});
   }
   return out;
 }
