@@ -180,7 +180,7 @@ static void choose_speeds(rival_work *work, const fg_icons *icons)
   settings_speeds(work->speeds, &work->settings->picture);
 }
 
-/* As the points of a square grid beside a field of a thousand times its width. */
+/* Of a square grid no point may lie in a field that is very narrow. */
 static int complain_of_none(const rival_work *work)
 {
   complain("%s: the method %s has no icon in it", work->settings->reading.input,

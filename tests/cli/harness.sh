@@ -38,11 +38,11 @@ write_netcdf() {
       $head .= name($_->[0]) . pack("N", $_->[1]) for @dims;
       $head .= pack("N N N N", 0, 0, 11, scalar @vars);
       for (@vars) {
-        my ($n, $d, $type, $said, $v) = @$_;
-        my @said = @$said;
+        my ($n, $d, $type, $attributes, $v) = @$_;
+        my @attributes = @$attributes;
         my $bytes = pack($type == 5 ? "f>*" : "d>*", @$v);
-        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", @said ? 12 : 0, @said / 2);
-        $head .= name(shift @said) . pack("N", 2) . name(shift @said) while @said;
+        $head .= name($n) . pack("N*", scalar @$d, @$d) . pack("N N", @attributes ? 12 : 0, @attributes / 2);
+        $head .= name(shift @attributes) . pack("N", 2) . name(shift @attributes) while @attributes;
         $head .= pack("N N N", $type, length $bytes, $begin + length $data);
         $data .= $bytes;
       }

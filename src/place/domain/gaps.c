@@ -13,7 +13,7 @@ static const double SMALL_SHARE = 0.04;
 
 /* Small holes are gaps where for them more than this share of the domain is too near to a
  * wall for a line of 25 arrows, a tenth of lambda. */
-static const double TOO_NEAR = 0.02, LEAST_SHARE = 0.25;
+static const double TOO_NEAR = 0.02, LEAST_TAKEN = 0.25;
 
 /* Of a sample. FRESH: filled in the present pass. */
 typedef enum kind { VALID, MISSING, SMALL, LARGE, FRESH } kind;
@@ -186,11 +186,11 @@ static fg_status are_gaps(bool *out, holes *all, fg_context *context)
     taken += domain->subdomain[n] != 0 && (double)all->distance[n] < near &&
              (double)all->other[n] >= near;
   }
-  *out = (double)taken > LEAST_SHARE * (double)inside;
+  *out = (double)taken > LEAST_TAKEN * (double)inside;
   return status;
 }
 
-/* The mean of a component at the valid neighbours along the axes. */
+/* The mean velocity at the valid neighbours along the axes; false: there are none. */
 static bool mean_around(float mean[2], const holes *all, float *const velocity[2],
                         size_t sample)
 {

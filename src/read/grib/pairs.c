@@ -48,11 +48,6 @@ static bool stand_together(const fg__grib_kind *u, const fg__grib_kind *v)
          strcmp(u->step_type, v->step_type) == 0;
 }
 
-static bool same_units(const fg__grib_kind *u, const fg__grib_kind *v)
-{
-  return strcmp(u->units, v->units) == 0;
-}
-
 static int compare_dates(const fg__grib_date *a, const fg__grib_date *b)
 {
   if (a->time != b->time)
@@ -219,10 +214,12 @@ static void name_component(fg__grib_pair *pair, int k, const fg__grib_pairs *pai
 /* The rank of two kinds as the components of one vector; false: they are none. */
 static bool rank_of(fg__grib_rank *out, const fg__grib_kind *u, const fg__grib_kind *v)
 {
+  if (!stand_together(u, v))
+    return false;
   *out = fg__grib_match_polar(u, v)         ? FG__GRIB_POLAR
          : strcmp(u->units, "m s**-1") == 0 ? FG__GRIB_VELOCITY
                                             : FG__GRIB_OTHER;
-  return stand_together(u, v) && (*out == FG__GRIB_POLAR || same_units(u, v));
+  return *out == FG__GRIB_POLAR || strcmp(u->units, v->units) == 0;
 }
 
 static void name_all(fg__grib_pairs *pairs)

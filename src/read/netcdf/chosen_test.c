@@ -252,6 +252,30 @@ static void choices_are_checked(void **state)
                    FG_STATUS_ARGUMENT);
 }
 
+/* Of many samples the first ones and the last are offered. */
+static void many_samples_are_offered_in_short(void **state)
+{
+  static const double member[7] = {1, 2, 3, 4, 5, 6, 9}, lev[2] = {850, 500};
+  static double values[2 * 7 * 2 * COUNT];
+  sample_file *f = *state;
+  for (int members = 5; members <= 7; members += 2) {
+    sample_begin(f, 0);
+    const int all[5] = {sample_dimension(f, "time", 2),
+                        sample_axis(f, "member", (size_t)members, member, "1"),
+                        sample_axis(f, "lev", 2, lev, "hPa"),
+                        sample_axis(f, "y", NY, Y, "km"),
+                        sample_axis(f, "x", NX, X, "km")};
+    for (int k = 0; k < 2; ++k)
+      sample_put(f, sample_variable(f, k ? "v" : "u", NC_FLOAT, 5, all), values);
+    sample_end(f);
+    refuse_with(f, &(fg_read_options){0}, FG_STATUS_UNSUPPORTED, "'member'");
+    assert_string_equal(fg_context_hint(f->context),
+                        members == 5
+                            ? "--at member=WHICH reads one of them: 1, 2, 3, 4, 5"
+                            : "--at member=WHICH reads one of them: 1, 2, 3, 4, ..., 9");
+  }
+}
+
 /* Samples are chosen by the names that a file has for them, and told by these: strings,
  * or rows of characters, under the dimension's name or another. */
 static void samples_have_labels(void **state)
@@ -325,6 +349,7 @@ int main(void)
       CASE(any_dimension_can_be_chosen),
       CASE(a_time_that_is_chosen_is_told_once),
       CASE(choices_are_checked),
+      CASE(many_samples_are_offered_in_short),
       CASE(samples_have_labels),
       CASE(values_go_before_indices),
       CASE(others_take_the_parts_of_what_is_chosen),

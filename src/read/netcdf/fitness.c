@@ -45,17 +45,22 @@ static bool fits_file(const fg__nc_file *file, const fg__nc_variable *v, size_t 
          samples / LARGEST_COMPRESSION * width <= file->sizes[v->file];
 }
 
-/* Compares in blocks, so that a small file that declares large variables takes little
+/* Whether numbers differ by no more than rounding; what is none in both is the same.
+ * Compares in blocks, so that a small file that declares large variables takes little
  * memory. */
-static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
+static bool same_numbers(const fg__nc_variable *a, const fg__nc_variable *b, size_t n,
+                         double rounding)
 {
   enum { AT_ONCE = 4096 };
   double x[AT_ONCE], y[AT_ONCE];
   for (size_t start = 0; start < n; start += AT_ONCE) {
     const size_t count = n - start < AT_ONCE ? n - start : AT_ONCE;
-    if (fg__nc_fetch(a, &start, &count, x) || fg__nc_fetch(b, &start, &count, y) ||
-        memcmp(x, y, count * sizeof *x) != 0)
+    if (fg__nc_fetch(a, &start, &count, x) || fg__nc_fetch(b, &start, &count, y))
       return false;
+    for (size_t i = 0; i < count; ++i)
+      if (x[i] != y[i] && !(fabs(x[i] - y[i]) <= rounding) &&
+          !(isnan(x[i]) && isnan(y[i])))
+        return false;
   }
   return true;
 }
@@ -73,7 +78,7 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
            (!by_name || strcmp(file->dimensions[a->dimension[k]].name,
                                file->dimensions[b->dimension[k]].name) == 0);
   return fits_file(file, of_a, n) && fits_file(file, of_b, n) &&
-         same_numbers(of_a, of_b, n);
+         same_numbers(of_a, of_b, n, 0.0);
 }
 
 /* Whether two coordinates of n numbers, in one unit, have a value that differs by more
@@ -81,7 +86,7 @@ static bool same_coordinates(const fg__nc_file *file, const fg__nc_variable *a,
 static bool differ(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
 {
   const size_t last = n - 1;
-  double first_value, last_value, x, y;
+  double first_value, last_value;
   char of_a[FG__NC_TEXT], of_b[FG__NC_TEXT];
   fg__nc_text(a, "units", of_a, sizeof of_a);
   fg__nc_text(b, "units", of_b, sizeof of_b);
@@ -90,11 +95,7 @@ static bool differ(const fg__nc_variable *a, const fg__nc_variable *b, size_t n)
     return false;
   const double step = n > 1 ? fabs(last_value - first_value) / (double)last : 0.0;
   const double rounding = fmax(0.01 * step, 1e-6 * fabs(last_value));
-  for (size_t i = 0; i < n; ++i)
-    if (!fg__nc_fetch_one(a, &i, &x) && !fg__nc_fetch_one(b, &i, &y) &&
-        fabs(x - y) > rounding)
-      return true;
-  return false;
+  return !same_numbers(a, b, n, rounding);
 }
 
 /* Compares times, levels and what else is not in the plane where components have
@@ -155,8 +156,7 @@ void fg__nc_refuse_apart(fg__nc_grid *grid, const fg__nc_pair *pair)
   const bool other = u->file != v->file;
   snprintf(grid->unusable, sizeof grid->unusable,
            "'%.60s' and '%.60s'%s%.200s lie more than half a cell apart: they are of "
-           "different "
-           "grids",
+           "different grids",
            u->plain_name, v->plain_name, other ? " of " : "", other ? v->path : "");
   grid->hint[0] = '\0';
 }

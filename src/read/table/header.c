@@ -13,8 +13,7 @@
 enum { LOOKED_AT = 8 };
 
 /* Copies text of any bytes as UTF-8: what is none is Latin-1, as programs on Windows
- * write ° and µ. Control characters become blanks,
- * blanks at its ends go. */
+ * write ° and µ. Control characters become blanks; blanks at the ends are left out. */
 static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
 {
   char raw[FG__TABLE_NAME];

@@ -246,8 +246,8 @@ static void check_pair(fg__nc_grid *grid, const fg__nc_file *file,
   check_storage(grid, file, mesh, pair);
 }
 
-/* Whether most of the second places are more than half as far from the first ones as
- * these are from each other, for all that their extent says. */
+/* Whether most of the second places are farther from the first ones than half the
+ * distance between neighbours, if these were even in their extent. */
 static bool lie_apart(double *const a[2], double *const b[2], size_t count, bool globe)
 {
   double extent[2];
