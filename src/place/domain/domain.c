@@ -20,6 +20,10 @@ static const double DEAD_SHARE = 0.1;
  * where next to nothing moves. */
 static const double LEAST_SHARE = 1.0 / 64.0;
 
+/* Narrow holes are filled where for them more than a share of the domain is too near to
+ * a wall for a line of 25 arrows, a tenth of lambda. */
+static const double TOO_NEAR = 0.02, LEAST_TAKEN = 0.25;
+
 /* Slower than this share of the greatest speed there is no direction to read. */
 static const double STILL = 1e-3;
 
@@ -280,39 +284,66 @@ static fg_status number_subdomains(fg__place_domain *domain, fg_context *context
   return status;
 }
 
-/* Maps the domain of its field. */
-static fg_status make_map(fg__place_domain *domain, fg_context *context)
+/* Maps the domain of a field, its subdomains not numbered yet. */
+static fg_status map_domain(fg__place_domain *out, fg_context *context,
+                            const fg_field *field)
 {
-  fg_status status = measure_speeds(domain, context, domain->clearance);
-  /* the clearance's place held speeds for a while */
+  *out = (fg__place_domain){
+      .field = field, .given = field, .dimension = fg_field_contents(field)->dimension};
+  choose_map(out);
+  const size_t count = map_count(out);
+  out->subdomain = fg__allocate(count, sizeof *out->subdomain);
+  out->clearance = fg__allocate(count, sizeof *out->clearance);
+  if (!out->subdomain || !out->clearance)
+    return fg__fail_memory(context, "the map of a domain",
+                           count * (sizeof *out->subdomain + sizeof *out->clearance));
+  /* the clearance's place holds speeds for a while */
+  fg_status status = measure_speeds(out, context, out->clearance);
   if (status == FG_STATUS_OK)
-    status = fg__place_distance(domain->clearance, context, domain->subdomain,
-                                domain->cells, domain->dimension, domain->spacing);
+    status = fg__place_distance(out->clearance, context, out->subdomain, out->cells,
+                                out->dimension, out->spacing);
+  return status;
+}
+
+/* The share of a domain without gaps where only gaps are too near for lines. */
+static double taken_share(const fg__place_domain *given, const fg__place_domain *filled)
+{
+  const size_t cells = map_count(filled);
+  const double near = TOO_NEAR * sqrt(filled->whole);
+  size_t all = 0, taken = 0;
+  for (size_t n = 0; n < cells; ++n) {
+    all += filled->subdomain[n] != 0;
+    taken += (double)given->clearance[n] < near && (double)filled->clearance[n] >= near;
+  }
+  return (double)taken / (double)all;
+}
+
+/* Takes the domain of the filled field instead, where gaps take much of the given one. */
+static fg_status fill_gaps(fg__place_domain *domain, fg_context *context)
+{
+  fg__place_domain filled = {0};
+  fg_field *field;
+  fg_status status = fg__place_fill_gaps(&field, context, domain);
+  if (status != FG_STATUS_OK || !field)
+    return status;
+  status = map_domain(&filled, context, field);
+  filled.given = domain->given;
+  filled.filled = field;
+  if (status == FG_STATUS_OK && taken_share(domain, &filled) > LEAST_TAKEN) {
+    fg__place_domain other = *domain;
+    *domain = filled;
+    filled = other;
+  }
+  fg__place_domain_clear(&filled);
   return status;
 }
 
 fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
                                   const fg_field *field)
 {
-  *out = (fg__place_domain){
-      .field = field, .given = field, .dimension = fg_field_contents(field)->dimension};
-  choose_map(out);
-  size_t count = map_count(out);
-  out->subdomain = fg__allocate(count, sizeof *out->subdomain);
-  out->clearance = fg__allocate(count, sizeof *out->clearance);
-  fg_status status = FG_STATUS_OK;
-  if (!out->subdomain || !out->clearance)
-    status = fg__fail_memory(context, "the map of a domain",
-                             count * (sizeof *out->subdomain + sizeof *out->clearance));
+  fg_status status = map_domain(out, context, field);
   if (status == FG_STATUS_OK)
-    status = make_map(out, context);
-  if (status == FG_STATUS_OK)
-    status = fg__place_fill_gaps(&out->filled, context, out);
-  if (status == FG_STATUS_OK && out->filled) {
-    out->field = out->filled;
-    memset(out->subdomain, 0, count * sizeof *out->subdomain);
-    status = make_map(out, context);
-  }
+    status = fill_gaps(out, context);
   if (status == FG_STATUS_OK)
     status = number_subdomains(out, context);
   if (status == FG_STATUS_OK)

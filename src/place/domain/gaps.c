@@ -1,60 +1,34 @@
 #include "place/domain/gaps.h"
 
 #include "base/memory.h"
-#include "place/domain/distance.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A hole is small up to this share of the domain's side, the root of its area: a fifth of
- * lambda of 25 arrows. */
-static const double SMALL_SHARE = 0.04;
+/* A hole is narrow where it is at most so wide along an axis: a share of the domain's
+ * side, the root of its area, a fifth of lambda of 25 arrows; or so many samples. */
+static const double NARROW_SHARE = 0.04;
+enum { NARROW_SAMPLES = 3 };
 
-/* Small holes are gaps where for them more than this share of the domain is too near to a
- * wall for a line of 25 arrows, a tenth of lambda. */
-static const double TOO_NEAR = 0.02, LEAST_TAKEN = 0.25;
+/* Straight walls are narrow, too, but one of so many times that width long. */
+enum { STRAIGHT = 4 };
 
-/* Of a sample. FRESH: filled in the present pass. */
-typedef enum kind { VALID, MISSING, SMALL, LARGE, FRESH } kind;
-
-/* Samples along the sides of a hole, with those around it. */
-typedef struct extent {
-  int low[2], high[2];
-} extent;
+/* Of a sample. GAP: missing in a narrow hole. FRESH: found or filled in this pass. */
+typedef enum kind { MISSING, VALID, GAP, FRESH } kind;
 
 typedef struct holes {
   const fg_field_arrays *field;
   const fg__place_domain *domain;
-  size_t count;         /* samples */
-  unsigned char *kind;  /* a sample */
-  size_t *stack, *hole; /* samples to be looked at, and those of one hole */
-  /* A cell of the domain's map: whether it is inside with small holes as walls, and
-   * without. */
-  int *with, *without;
-  float *distance, *other;
+  size_t count; /* samples */
+  double width; /* of a narrow hole */
+  unsigned char *kind;
 } holes;
-
-static size_t cell_count(const fg__place_domain *domain)
-{
-  return (size_t)domain->cells[0] * (size_t)domain->cells[1];
-}
 
 static bool is_missing(const fg_field_arrays *field, size_t n)
 {
   return (field->valid && !field->valid[n]) || !isfinite(field->velocity[0][n]) ||
          !isfinite(field->velocity[1][n]);
-}
-
-static void release(holes *all)
-{
-  free(all->kind);
-  free(all->stack);
-  free(all->hole);
-  free(all->with);
-  free(all->without);
-  free(all->distance);
-  free(all->other);
 }
 
 /* Finds the missing samples; whether there are any. */
@@ -68,140 +42,119 @@ static bool mark_missing(holes *all)
   return any;
 }
 
-static fg_status allocate(holes *all, fg_context *context)
+/* All samples of a kind become of another; returns how many. */
+static size_t turn(holes *all, kind from, kind to)
 {
-  const size_t cells = cell_count(all->domain);
-  all->stack = fg__allocate(all->count, sizeof *all->stack);
-  all->hole = fg__allocate(all->count, sizeof *all->hole);
-  all->with = fg__allocate(cells, sizeof *all->with);
-  all->without = fg__allocate(cells, sizeof *all->without);
-  all->distance = fg__allocate(cells, sizeof *all->distance);
-  all->other = fg__allocate(cells, sizeof *all->other);
-  if (!all->stack || !all->hole || !all->with || !all->without || !all->distance ||
-      !all->other)
-    return fg__fail_memory(context, "the gaps of a field",
-                           all->count * 2 * sizeof *all->stack + cells * 16);
-  return FG_STATUS_OK;
-}
-
-static void widen(extent *around, int x, int y)
-{
-  const int at[2] = {x, y};
-  for (int k = 0; k < 2; ++k) {
-    around->low[k] = at[k] < around->low[k] ? at[k] : around->low[k];
-    around->high[k] = at[k] > around->high[k] ? at[k] : around->high[k];
-  }
-}
-
-/* Lists the samples of a hole, which touch along sides or at corners; returns their
- * number. */
-static size_t list_hole(holes *all, extent *around, size_t first)
-{
-  const int *size = all->field->size;
-  size_t depth = 0, count = 0;
-  *around = (extent){{size[0], size[1]}, {-1, -1}};
-  all->stack[depth++] = first;
-  all->kind[first] = LARGE;
-  while (depth > 0) {
-    const size_t sample = all->stack[--depth];
-    const int i = (int)(sample % (size_t)size[0]), j = (int)(sample / (size_t)size[0]);
-    all->hole[count++] = sample;
-    widen(around, i - 1, j - 1);
-    widen(around, i + 1, j + 1);
-    for (int y = j - 1; y <= j + 1; ++y)
-      for (int x = i - 1; x <= i + 1; ++x) {
-        if (x < 0 || x >= size[0] || y < 0 || y >= size[1])
-          continue;
-        const size_t next = (size_t)y * (size_t)size[0] + (size_t)x;
-        if (all->kind[next] != MISSING)
-          continue;
-        all->kind[next] = LARGE;
-        all->stack[depth++] = next;
-      }
-  }
+  size_t count = 0;
+  for (size_t n = 0; n < all->count; ++n)
+    if (all->kind[n] == from) {
+      all->kind[n] = (unsigned char)to;
+      ++count;
+    }
   return count;
 }
 
-/* Whether a hole lies within the field, and is small. */
-static bool is_small(const fg_field_arrays *field, const extent *around, double most)
+/* Whether a hole between two samples along axis k is narrow. */
+static bool is_narrow(const holes *all, int k, int before, int after)
 {
-  for (int k = 0; k < 2; ++k)
-    if (around->low[k] < 0 || around->high[k] >= field->size[k] ||
-        field->axis[k][around->high[k]] - field->axis[k][around->low[k]] > most)
-      return false;
-  return true;
+  const double *axis = all->field->axis[k];
+  return after - before <= NARROW_SAMPLES + 1 || axis[after] - axis[before] <= all->width;
 }
 
-/* Sets the map's cells round a small hole: a wall, or none. */
-static void map_hole(holes *all, const extent *around)
+/* Finds what is narrow on the line of samples along axis k that starts at sample
+ * `first`. */
+static void bridge_line(holes *all, int k, size_t first)
 {
-  const fg__place_domain *domain = all->domain;
-  int low[2], high[2];
-  for (int k = 0; k < 2; ++k) {
-    const double *axis = all->field->axis[k];
-    low[k] = (int)((axis[around->low[k]] - domain->low[k]) / domain->spacing);
-    high[k] = (int)((axis[around->high[k]] - domain->low[k]) / domain->spacing);
-    high[k] = high[k] < domain->cells[k] ? high[k] : domain->cells[k] - 1;
-  }
-  for (int y = low[1]; y <= high[1]; ++y)
-    for (int x = low[0]; x <= high[0]; ++x)
-      all->without[(size_t)y * (size_t)domain->cells[0] + (size_t)x] = 1;
-  /* it may be smaller than a cell */
-  all->with[(size_t)((low[1] + high[1]) / 2) * (size_t)domain->cells[0] +
-            (size_t)((low[0] + high[0]) / 2)] = 0;
-}
-
-/* Tells small holes from large ones. */
-static void find_small(holes *all)
-{
-  const double most = SMALL_SHARE * sqrt(all->domain->whole);
-  for (size_t n = 0; n < cell_count(all->domain); ++n)
-    all->with[n] = all->without[n] = all->domain->subdomain[n] != 0;
-  for (size_t n = 0; n < all->count; ++n) {
-    extent around;
-    if (all->kind[n] != MISSING)
+  const size_t stride = k == 0 ? 1 : (size_t)all->field->size[0];
+  int before = -1;
+  for (int n = 0; n < all->field->size[k]; ++n) {
+    const unsigned char here = all->kind[first + (size_t)n * stride];
+    if (here != VALID && here != GAP)
       continue;
-    const size_t count = list_hole(all, &around, n);
-    if (!is_small(all->field, &around, most))
-      continue;
-    for (size_t k = 0; k < count; ++k)
-      all->kind[all->hole[k]] = SMALL;
-    map_hole(all, &around);
+    if (before >= 0 && n > before + 1 && is_narrow(all, k, before, n))
+      for (int m = before + 1; m < n; ++m)
+        all->kind[first + (size_t)m * stride] = FRESH;
+    before = n;
   }
 }
 
-/* Whether small holes take lines their room. */
-static fg_status are_gaps(bool *out, holes *all, fg_context *context)
+/* Finds narrow holes, and what is narrow with these bridged, until there is no more. */
+static size_t find_gaps(holes *all)
 {
-  const fg__place_domain *domain = all->domain;
-  const double near = TOO_NEAR * sqrt(domain->whole);
-  size_t inside = 0, taken = 0;
-  fg_status status = fg__place_distance(all->distance, context, all->with, domain->cells,
-                                        2, domain->spacing);
-  if (status == FG_STATUS_OK)
-    status = fg__place_distance(all->other, context, all->without, domain->cells, 2,
-                                domain->spacing);
-  for (size_t n = 0; n < cell_count(domain) && status == FG_STATUS_OK; ++n) {
-    inside += domain->subdomain[n] != 0;
-    taken += domain->subdomain[n] != 0 && (double)all->distance[n] < near &&
-             (double)all->other[n] >= near;
+  const int *size = all->field->size;
+  size_t count = 0, found;
+  do {
+    for (int j = 0; j < size[1]; ++j)
+      bridge_line(all, 0, (size_t)j * (size_t)size[0]);
+    for (int i = 0; i < size[0]; ++i)
+      bridge_line(all, 1, (size_t)i);
+    found = turn(all, FRESH, GAP);
+    count += found;
+  } while (found > 0);
+  return count;
+}
+
+/* How far a hole reaches from a sample along a diagonal or an axis. */
+static double reach(const holes *all, const int at[2], const int step[2], double most)
+{
+  const int *size = all->field->size;
+  double length = 0.0;
+  int x = at[0], y = at[1];
+  while (length <= most) {
+    x += step[0];
+    y += step[1];
+    if (x < 0 || x >= size[0] || y < 0 || y >= size[1] ||
+        !is_missing(all->field, (size_t)y * (size_t)size[0] + (size_t)x))
+      break;
+    length += hypot(all->field->axis[0][x] - all->field->axis[0][x - step[0]],
+                    all->field->axis[1][y] - all->field->axis[1][y - step[1]]);
   }
-  *out = (double)taken > LEAST_TAKEN * (double)inside;
-  return status;
+  return length;
+}
+
+/* Whether a sample is in a hole that is long. */
+static bool is_in_wall(const holes *all, size_t sample)
+{
+  static const int STEP[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  const int row = all->field->size[0];
+  const int at[2] = {(int)(sample % (size_t)row), (int)(sample / (size_t)row)};
+  const double most =
+      STRAIGHT * fmax(all->width, NARROW_SAMPLES * all->domain->data_step);
+  for (int k = 0; k < 4; ++k) {
+    const int back[2] = {-STEP[k][0], -STEP[k][1]};
+    if (reach(all, at, STEP[k], most) + reach(all, at, back, most) > most)
+      return true;
+  }
+  return false;
+}
+
+/* Whether most gaps are in no wall. */
+static bool are_scattered(const holes *all, size_t count)
+{
+  size_t walls = 0;
+  for (size_t n = 0; n < all->count; ++n)
+    walls += all->kind[n] == GAP && is_in_wall(all, n);
+  return 2 * walls < count;
 }
 
 /* The mean velocity at the valid neighbours along the axes; false: there are none. */
 static bool mean_around(float mean[2], const holes *all, float *const velocity[2],
                         size_t sample)
 {
-  const size_t row = (size_t)all->field->size[0];
-  const size_t beside[4] = {sample - 1, sample + 1, sample - row, sample + row};
+  const size_t width = (size_t)all->field->size[0];
+  const size_t stride[2] = {1, width};
+  const size_t at[2] = {sample % width, sample / width};
   double sum[2] = {0.0, 0.0};
   int count = 0;
-  for (int k = 0; k < 4; ++k)
-    if (all->kind[beside[k]] == VALID) {
-      sum[0] += (double)velocity[0][beside[k]];
-      sum[1] += (double)velocity[1][beside[k]];
+  for (int k = 0; k < 2; ++k)
+    for (int side = 0; side < 2; ++side) {
+      if (at[k] == (side ? (size_t)all->field->size[k] - 1 : 0))
+        continue;
+      const size_t beside = side ? sample + stride[k] : sample - stride[k];
+      if (all->kind[beside] != VALID)
+        continue;
+      sum[0] += (double)velocity[0][beside];
+      sum[1] += (double)velocity[1][beside];
       ++count;
     }
   for (int k = 0; k < 2 && count > 0; ++k)
@@ -209,23 +162,19 @@ static bool mean_around(float mean[2], const holes *all, float *const velocity[2
   return count > 0;
 }
 
-/* Fills small holes from their sides on, a sample deep in each pass. */
+/* Fills gaps from their sides on, a sample deep in each pass. */
 static void fill(holes *all, float *const velocity[2])
 {
-  for (bool any = true; any;) {
-    any = false;
+  do
     for (size_t n = 0; n < all->count; ++n) {
       float mean[2];
-      if (all->kind[n] != SMALL || !mean_around(mean, all, velocity, n))
+      if (all->kind[n] != GAP || !mean_around(mean, all, velocity, n))
         continue;
       velocity[0][n] = mean[0];
       velocity[1][n] = mean[1];
       all->kind[n] = FRESH;
-      any = true;
     }
-    for (size_t n = 0; n < all->count; ++n)
-      all->kind[n] = all->kind[n] == FRESH ? VALID : all->kind[n];
-  }
+  while (turn(all, FRESH, VALID) > 0);
 }
 
 static fg_status create_filled(fg_field **out, fg_context *context, holes *all)
@@ -241,8 +190,6 @@ static fg_status create_filled(fg_field **out, fg_context *context, holes *all)
       filled.velocity[k] = velocity[k];
     }
     fill(all, velocity);
-    for (size_t n = 0; n < all->count; ++n)
-      all->kind[n] = all->kind[n] == VALID; /* as fg_field_arrays has it */
     filled.valid = all->kind;
     status = fg_field_create(out, context, &filled);
   } else {
@@ -256,8 +203,9 @@ static fg_status create_filled(fg_field **out, fg_context *context, holes *all)
 fg_status fg__place_fill_gaps(fg_field **out, fg_context *context,
                               const fg__place_domain *domain)
 {
-  holes all = {.field = fg_field_contents(domain->field), .domain = domain};
-  bool gaps = false;
+  holes all = {.field = fg_field_contents(domain->field),
+               .domain = domain,
+               .width = NARROW_SHARE * sqrt(domain->whole)};
   *out = NULL;
   if (domain->dimension != 2)
     return FG_STATUS_OK;
@@ -265,16 +213,10 @@ fg_status fg__place_fill_gaps(fg_field **out, fg_context *context,
   all.kind = fg__allocate(all.count, 1);
   if (!all.kind)
     return fg__fail_memory(context, "the gaps of a field", all.count);
-  fg_status status = FG_STATUS_OK;
-  if (mark_missing(&all)) {
-    status = allocate(&all, context);
-    if (status == FG_STATUS_OK) {
-      find_small(&all);
-      status = are_gaps(&gaps, &all, context);
-    }
-    if (status == FG_STATUS_OK && gaps)
-      status = create_filled(out, context, &all);
-  }
-  release(&all);
+  const size_t count = mark_missing(&all) ? find_gaps(&all) : 0;
+  const fg_status status = count > 0 && are_scattered(&all, count)
+                               ? create_filled(out, context, &all)
+                               : FG_STATUS_OK;
+  free(all.kind);
   return status;
 }

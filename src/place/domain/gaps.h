@@ -6,7 +6,8 @@
 #include "place/domain/domain.h"
 
 /* Makes a field without the gaps of a domain's, in which their samples are means of those
- * around. *out is NULL where small holes are few, as islands are, and in 3D. MEMORY. */
+ * around. *out is NULL where there are none or most are in straight walls, and in 3D.
+ * MEMORY. */
 fg_status fg__place_fill_gaps(fg_field **out, fg_context *context,
                               const fg__place_domain *domain);
 
