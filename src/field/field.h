@@ -79,6 +79,14 @@ static inline int fg__field_last_axis(const fg_field *field)
 /* Whether sample i is missing, by the mask or by any of its components. */
 bool fg__field_is_missing(const fg_field_arrays *arrays, size_t i);
 
+/* The box round the valid cells of a field that has all its samples, and their area or
+ * volume. */
+typedef struct fg__field_box {
+  double low[3], high[3], measure;
+} fg__field_box;
+
+fg__field_box fg__field_box_of(const fg_field *field);
+
 /* Places of the corners of cell (i, j, k), k = 0 in 2D, among the samples that the field
  * has; x fastest. */
 void fg__field_corners_of(const fg_field *field, int i, int j, int k,

@@ -19,62 +19,8 @@ static const double WIDENING = 1.05;
 /* Slower flow has no direction worth telling. */
 static const double STILL = 1e-3;
 
-typedef struct box {
-  double low[3], high[3], measure;
-} box;
-
-/* Adds a row of data cells; `from` and `to` are its ends along y and z. */
-static void add_row(box *sum, const fg_field *field, const unsigned char *valid,
-                    const double from[3], const double to[3])
-{
-  const double *x = field->axis[0].coordinate;
-  double width = 0.0, left = HUGE_VAL, right = -HUGE_VAL;
-  for (int i = 0; i < field->axis[0].cells; ++i)
-    if (!valid || valid[i]) {
-      width += x[i + 1] - x[i];
-      left = fmin(left, x[i]);
-      right = fmax(right, x[i + 1]);
-    }
-  if (!(width > 0.0))
-    return;
-  double measure = width;
-  for (int k = 1; k < field->contents.dimension; ++k) {
-    measure *= to[k] - from[k];
-    sum->low[k] = fmin(sum->low[k], from[k]);
-    sum->high[k] = fmax(sum->high[k], to[k]);
-  }
-  sum->low[0] = fmin(sum->low[0], left);
-  sum->high[0] = fmax(sum->high[0], right);
-  sum->measure += measure;
-}
-
-static box find_box(const fg_field *field)
-{
-  box out = {.measure = 0.0};
-  const int dimension = field->contents.dimension;
-  const int layers = dimension == 3 ? field->axis[2].cells : 1;
-  const unsigned char *valid = field->valid_cell;
-  for (int k = 0; k < dimension; ++k) {
-    out.low[k] = HUGE_VAL;
-    out.high[k] = -HUGE_VAL;
-  }
-  for (int k = 0; k < layers; ++k)
-    for (int j = 0; j < field->axis[1].cells; ++j) {
-      const double *y = field->axis[1].coordinate + j;
-      double from[3] = {0.0, y[0]}, to[3] = {0.0, y[1]};
-      if (dimension == 3) {
-        from[2] = field->axis[2].coordinate[k];
-        to[2] = field->axis[2].coordinate[k + 1];
-      }
-      add_row(&out, field, valid, from, to);
-      if (valid)
-        valid += field->axis[0].cells;
-    }
-  return out;
-}
-
 /* Sets the cells along each axis, of about the wanted side; returns how many it takes. */
-static double set_size(fg__score_raster *raster, const box *bounds)
+static double set_size(fg__score_raster *raster, const fg__field_box *bounds)
 {
   double cells = 1.0;
   for (int k = 0; k < 3; ++k) {
@@ -95,7 +41,7 @@ static double set_size(fg__score_raster *raster, const box *bounds)
 }
 
 static fg_status choose_size(fg__score_raster *raster, fg_context *context,
-                             const box *bounds)
+                             const fg__field_box *bounds)
 {
   double cells = set_size(raster, bounds);
   if (cells > MOST_CELLS)
@@ -181,7 +127,7 @@ fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
   if (!fg__field_is_whole(field))
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "score: a part of a field can not be scored, only all of it");
-  const box bounds = find_box(field);
+  const fg__field_box bounds = fg__field_box_of(field);
   out->measure = bounds.measure;
   out->side = out->dimension == 3 ? cbrt(bounds.measure) : sqrt(bounds.measure);
   out->spacing = out->side / (out->dimension == 3 ? CELLS_3D : CELLS_2D);

@@ -1,6 +1,7 @@
 #include "place/domain/domain.h"
 
 #include "base/memory.h"
+#include "field/field.h"
 #include "place/domain/distance.h"
 #include "place/domain/gaps.h"
 
@@ -16,9 +17,12 @@ enum { FEWEST_2D = 128, MOST_2D = 512, FEWEST_3D = 48, MOST_3D = 112 };
  * square: a vessel in a box of noise (docs/method/placement.md). */
 static const double DEAD_SHARE = 0.1;
 
-/* The least share of the domain that arrows are made for, which bounds the rasters' size
- * where next to nothing moves. */
+/* The least share of the box that arrows are made for, which bounds the rasters' size
+ * where next to nothing is valid or moves. */
 static const double LEAST_SHARE = 1.0 / 64.0;
+
+/* A box of valid cells that is less than this share of the field's is the domain's. */
+static const double SMALL_BOX = 0.5;
 
 /* Narrow holes are filled where for them more than a share of the domain is too near to
  * a wall for a line of 25 arrows, a tenth of lambda. */
@@ -126,6 +130,22 @@ bool fg__place_moves(const fg__place_domain *domain, double speed)
   return speed > STILL * domain->greatest;
 }
 
+/* Takes the box of what is valid in a field with wide margins. */
+static void crop(fg__place_domain *domain)
+{
+  const fg_field_arrays *arrays = fg_field_contents(domain->field);
+  const fg__field_box valid = fg__field_box_of(domain->field);
+  double share = 1.0;
+  for (int k = 0; k < domain->dimension; ++k)
+    if (!(arrays->period[k] > 0.0))
+      share *= (valid.high[k] - valid.low[k]) / (domain->high[k] - domain->low[k]);
+  for (int k = 0; k < domain->dimension && share < SMALL_BOX; ++k)
+    if (!(arrays->period[k] > 0.0)) {
+      domain->low[k] = valid.low[k];
+      domain->high[k] = valid.high[k];
+    }
+}
+
 static void choose_map(fg__place_domain *domain)
 {
   const fg_field_arrays *arrays = fg_field_contents(domain->field);
@@ -136,11 +156,13 @@ static void choose_map(fg__place_domain *domain)
     domain->low[k] = arrays->axis[k][0];
     domain->high[k] = arrays->period[k] > 0.0 ? domain->low[k] + arrays->period[k]
                                               : arrays->axis[k][size - 1];
-    double length = domain->high[k] - domain->low[k];
-    int intervals = arrays->period[k] > 0.0 ? size : size - 1;
-    longest = fmax(longest, length);
-    domain->data_step = fmin(domain->data_step, length / intervals);
+    const int intervals = arrays->period[k] > 0.0 ? size : size - 1;
+    domain->data_step =
+        fmin(domain->data_step, (domain->high[k] - domain->low[k]) / intervals);
   }
+  crop(domain);
+  for (int k = 0; k < domain->dimension; ++k)
+    longest = fmax(longest, domain->high[k] - domain->low[k]);
   int fewest = domain->dimension == 2 ? FEWEST_2D : FEWEST_3D;
   int most = domain->dimension == 2 ? MOST_2D : MOST_3D;
   double wanted = fmin(fmax(2.0 * longest / domain->data_step, fewest), most);
@@ -224,7 +246,10 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
       weights += fg__place_weight(domain, (double)speed[n]);
   double cell = pow(domain->spacing, domain->dimension);
   domain->whole = cell * (double)count;
-  domain->measure = fmax(LEAST_SHARE * domain->whole,
+  double box = 1.0;
+  for (int k = 0; k < domain->dimension; ++k)
+    box *= domain->high[k] - domain->low[k];
+  domain->measure = fmax(LEAST_SHARE * box,
                          cell * weights / fg__place_weight(domain, domain->greatest));
   return FG_STATUS_OK;
 }

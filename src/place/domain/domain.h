@@ -16,7 +16,7 @@ typedef struct fg__place_domain {
   const fg_field *given;
   fg_field *filled; /* NULL: the given one has no gaps */
   int dimension;
-  double low[3], high[3]; /* the field's box, input coordinates as all that follows */
+  double low[3], high[3]; /* the box, input coordinates as all that follows */
   double data_step;       /* the smallest of the mean distances between samples */
   /* The map: square cells over the box. */
   int cells[3];

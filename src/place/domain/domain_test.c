@@ -162,6 +162,44 @@ static void what_stands_still_has_no_share(void **state)
   fg_field_destroy(field);
 }
 
+static void pond(const double position[3], double v[3])
+{
+  slant(position, v);
+  if (position[0] < 2 || position[0] > 3.1 || position[1] > 5)
+    v[0] = (double)NAN;
+}
+
+static void creek(const double position[3], double v[3])
+{
+  slant(position, v);
+  if (fabs(position[0] - position[1]) > 0.15)
+    v[0] = (double)NAN;
+}
+
+/* The rasters of an area in a much larger grid are the area's, and not too fine where it
+ * is little of its box. */
+static void wide_margins_are_no_part(void **state)
+{
+  const sampling box = {
+      .dimension = 2, .nodes = {101, 101}, .low = {0, 0}, .high = {10, 10}};
+  fg_field *field = field_of(*state, &box, pond);
+  fg__place_domain domain = domain_of(*state, field);
+  assert_close(domain.low[0], 2, 1e-6);
+  assert_close(domain.high[0], 3.1, 1e-6);
+  assert_close(domain.low[1], 0, 1e-6);
+  assert_close(domain.high[1], 5, 1e-6);
+  assert_close(domain.measure, 1.1 * 5, 0.1);
+  fg__place_domain_clear(&domain);
+  fg_field_destroy(field);
+  field = field_of(*state, &box, creek);
+  domain = domain_of(*state, field);
+  assert_close(domain.high[0] - domain.low[0], 10, 1e-6);
+  assert_true(domain.whole < 1.2);
+  assert_close(domain.measure, 100.0 / 64, 1e-6);
+  fg__place_domain_clear(&domain);
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -171,6 +209,7 @@ int main(void)
       CASE(a_period_belongs_to_the_domain),
       CASE(dead_volume_hardly_counts),
       CASE(what_stands_still_has_no_share),
+      CASE(wide_margins_are_no_part),
   };
   return cmocka_run_group_tests_name("place/domain/domain", tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 #include "place/domain/gaps.h"
 
 #include "base/memory.h"
+#include "field/field.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,18 +26,12 @@ typedef struct holes {
   unsigned char *kind;
 } holes;
 
-static bool is_missing(const fg_field_arrays *field, size_t n)
-{
-  return (field->valid && !field->valid[n]) || !isfinite(field->velocity[0][n]) ||
-         !isfinite(field->velocity[1][n]);
-}
-
 /* Finds the missing samples; whether there are any. */
 static bool mark_missing(holes *all)
 {
   bool any = false;
   for (size_t n = 0; n < all->count; ++n) {
-    all->kind[n] = is_missing(all->field, n) ? MISSING : VALID;
+    all->kind[n] = fg__field_is_missing(all->field, n) ? MISSING : VALID;
     any |= all->kind[n] == MISSING;
   }
   return any;
@@ -104,7 +99,7 @@ static double reach(const holes *all, const int at[2], const int step[2], double
     x += step[0];
     y += step[1];
     if (x < 0 || x >= size[0] || y < 0 || y >= size[1] ||
-        !is_missing(all->field, (size_t)y * (size_t)size[0] + (size_t)x))
+        !fg__field_is_missing(all->field, (size_t)y * (size_t)size[0] + (size_t)x))
       break;
     length += hypot(all->field->axis[0][x] - all->field->axis[0][x - step[0]],
                     all->field->axis[1][y] - all->field->axis[1][y - step[1]]);

@@ -132,6 +132,7 @@ static void gaps_cost_little_error(void **state)
   const double least = error_of(*state, whole, whole);
   for (int n = 0; n < 2; ++n) {
     fg_field *gappy = field_of(*state, &GRID, of[n]);
+    assert_true(error_of(*state, gappy, whole) < 1.5 * least);
 
     fg_field_destroy(gappy);
   }
