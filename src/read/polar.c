@@ -2,6 +2,7 @@
 
 #include "base/angle.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -33,6 +34,38 @@ void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char 
   snprintf(out, size, "of a speed and its direction %s, in %s clockwise from north: %s",
            polar->sense < 0 ? "from where it comes" : "to where it goes",
            polar->unit == 1.0 ? "radians" : "degrees", rule);
+}
+
+static bool contains(const char *text, const char *word)
+{
+  for (; *text; ++text)
+    if (strncasecmp(text, word, strlen(word)) == 0)
+      return true;
+  return false;
+}
+
+/* Whether a name has "to" between other letters, as wind_to_direction. */
+static bool has_to(const char *name)
+{
+  for (const char *at = name; *at; ++at)
+    if (strncasecmp(at, "to", 2) == 0 && !isalpha((unsigned char)at[2]) &&
+        (at == name || !isalpha((unsigned char)at[-1])))
+      return true;
+  return false;
+}
+
+int fg__polar_sense(const char *name, const char *more)
+{
+  if (contains(name, "from") || contains(more, "from"))
+    return -1;
+  if (has_to(name) || contains(name, "toward") || contains(more, "toward"))
+    return 1;
+  /* dd is synoptic tables' wind, drct METAR archives' */
+  return contains(name, "wind") || contains(more, "wind") ||
+                 tolower((unsigned char)name[0]) == 'w' || contains(name, "drct") ||
+                 strcasecmp(name, "dd") == 0
+             ? -1
+             : 1;
 }
 
 double fg__polar_unit(const char *units)

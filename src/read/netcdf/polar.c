@@ -7,7 +7,6 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /* A standard name; "" where it is one of a quality ("wind_speed status_flag"). */
 static void standard_name(char out[FG__NC_TEXT], const fg__nc_variable *v)
@@ -17,29 +16,13 @@ static void standard_name(char out[FG__NC_TEXT], const fg__nc_variable *v)
     out[0] = '\0';
 }
 
-static bool contains(const char *text, const char *word)
-{
-  for (; *text; ++text)
-    if (strncasecmp(text, word, strlen(word)) == 0)
-      return true;
-  return false;
-}
-
-/* Where it is not said otherwise, wind is named after the place from where it comes. */
 static int sense_of(const fg__nc_variable *v, const char *standard)
 {
   char text[FG__NC_TEXT];
   if (standard[0])
     return strstr(standard, "from_direction") ? -1 : 1;
   fg__nc_text(v, "long_name", text, sizeof text);
-  if (contains(v->plain_name, "from") || contains(text, "from"))
-    return -1;
-  if (contains(text, "toward"))
-    return 1;
-  return contains(v->plain_name, "wind") || contains(text, "wind") ||
-                 tolower((unsigned char)v->plain_name[0]) == 'w'
-             ? -1
-             : 1;
+  return fg__polar_sense(v->plain_name, text);
 }
 
 bool fg__nc_direction(fg__polar *out, const fg__nc_variable *v)

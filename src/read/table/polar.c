@@ -57,11 +57,7 @@ void fg__table_set_polar(fg__table_vector *vector, const fg__table *table)
 {
   const char *plain = table->column[vector->velocity[1]].plain;
   const char *units = table->column[vector->velocity[1]].units;
-  const char *at = find_direction(plain);
-  const bool from = is_synoptic(plain) || strstr(plain, "wind") != NULL ||
-                    plain[0] == 'w' || fg__table_has_word(plain, "from") ||
-                    (at && strncmp(at, "drct", 4) == 0);
-  vector->polar.sense = from ? -1 : 1;
+  vector->polar.sense = fg__polar_sense(plain, "");
   vector->polar.unit = units[0]                           ? fg__polar_unit(units)
                        : fg__table_has_word(plain, "rad") ? 1.0
                                                           : FG__RADIANS;
