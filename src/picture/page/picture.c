@@ -9,6 +9,7 @@
 #include "picture/page/figure.h"
 #include "picture/page/texture_image.h"
 #include "picture/surface/surface.h"
+#include "place/domain/domain.h"
 
 /* Cairo's image surfaces end at 32767 pixels a side; 2^28 pixels take 1 GiB. */
 static const double most_pixels_a_side = 32767.0;
@@ -96,6 +97,22 @@ static fg_status make_map(fg__figure *figure, int k, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* Where data are missing; gaps that lines go over are not shown. */
+static fg_status make_mask(fg__figure *figure, int k, fg_context *context)
+{
+  const fg_panel *given = &figure->given[k];
+  fg_field *filled = NULL;
+  fg_status status = given->background
+                         ? FG_STATUS_OK
+                         : fg__place_without_gaps(&filled, context, given->field);
+  if (!status)
+    status = fg__scene_mask(&figure->panel[k].scene.mask, context,
+                            fg__figure_page(figure, k), filled ? filled : given->field,
+                            figure->low, &figure->plane.outline);
+  fg_field_destroy(filled);
+  return status;
+}
+
 static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
                             const fg_picture_options *options)
 {
@@ -111,8 +128,7 @@ static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
       options->tint ? fg_density_contents(given->density) : NULL,
       options->no_arrows ? NULL : given->icons, &figure->palette, range);
   if (!status && masked)
-    status = fg__scene_mask(&panel->scene.mask, context, page, given->field, figure->low,
-                            &figure->plane.outline);
+    status = make_mask(figure, k, context);
   if (!status && (options->skeletons || options->centers))
     status = fg__scene_add_skeletons(&panel->scene, context, page,
                                      fg_field_contents(given->field), figure->low,

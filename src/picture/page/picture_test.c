@@ -150,6 +150,35 @@ static void odd_icons_are_drawn_without_trouble(void **state)
   write_picture(e, "three.pdf", &options);
 }
 
+/* Missing samples that lines go over are not shown as missing; the hole is. */
+static void scattered_gaps_are_no_hole(void **state)
+{
+  static float u[NX * NY];
+  example *e = *state;
+  fg_field_arrays arrays = *fg_field_contents(e->field);
+  int gap = -1;
+  for (int n = 0; n < NX * NY; ++n) {
+    const bool missing = (uint32_t)((uint32_t)n * UINT32_C(2654435761)) >> 29 == 0;
+    u[n] = missing ? NAN : arrays.velocity[0][n];
+    if (missing && n % NX > 10 && n % NX < 20 && n / NX > 10 && n / NX < 30)
+      gap = n;
+  }
+  assert_true(gap > 0);
+  const double x = arrays.axis[0][gap % NX], y = arrays.axis[1][gap / NX];
+  const fg_picture_options options = {.width = 300.0,
+                                      .pixels_per_point = 3.0,
+                                      .no_frame = true,
+                                      .no_arrows = true,
+                                      .mask_color = "#909090"};
+  fg_field *whole = e->field;
+  arrays.velocity[0] = u;
+  assert_int_equal(fg_field_create(&e->field, e->context, &arrays), FG_STATUS_OK);
+  fg_field_destroy(whole);
+  write_picture(e, "a.png", &options);
+  expect_pixel(e, "a.png", 30.0, x, y, white);
+  expect_pixel(e, "a.png", 30.0, 32.0, 10.0, (unsigned char[]){255, 0x90, 0x90, 0x90});
+}
+
 int main(void)
 {
 #define TEST(name)                                                                       \
@@ -161,6 +190,7 @@ int main(void)
       TEST(a_transparent_png_has_no_background),
       TEST(an_arrow_across_a_periodic_boundary_shows_on_both_sides),
       TEST(odd_icons_are_drawn_without_trouble),
+      TEST(scattered_gaps_are_no_hole),
   };
   return cmocka_run_group_tests_name("picture/page/picture", tests, NULL, NULL);
 }

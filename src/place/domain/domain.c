@@ -378,6 +378,26 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
   return status;
 }
 
+fg_status fg__place_without_gaps(fg_field **out, fg_context *context,
+                                 const fg_field *field)
+{
+  fg__place_domain domain;
+  *out = NULL;
+  if (!field->valid_cell || field->contents.dimension != 2)
+    return FG_STATUS_OK;
+  fg_status status = map_domain(&domain, context, field);
+  if (status == FG_STATUS_OK)
+    status = fill_gaps(&domain, context);
+  *out = domain.filled;
+  domain.filled = NULL;
+  fg__place_domain_clear(&domain);
+  if (status == FG_STATUS_ARGUMENT) { /* too little for lines */
+    fg_context_clear(context);
+    status = FG_STATUS_OK;
+  }
+  return status;
+}
+
 void fg__place_domain_clear(fg__place_domain *domain)
 {
   fg_field_destroy(domain->filled);

@@ -40,6 +40,10 @@ fg_status fg__place_domain_create(fg__place_domain *out, fg_context *context,
                                   const fg_field *field);
 void fg__place_domain_clear(fg__place_domain *domain);
 
+/* The field that lines go over: *out is NULL where that is the given one. MEMORY. */
+fg_status fg__place_without_gaps(fg_field **out, fg_context *context,
+                                 const fg_field *field);
+
 /* The unit direction of the flow as seen on the page; false outside the domain and where
  * the velocity vanishes. `direction` has 3 components, the third 0 in 2D. */
 bool fg__place_direction(const fg__place_domain *domain, const double position[3],
