@@ -221,6 +221,14 @@ static size_t mark_domain(fg__place_domain *domain, float *speed)
   return count;
 }
 
+static double box_measure(const fg__place_domain *domain)
+{
+  double box = 1.0;
+  for (int k = 0; k < domain->dimension; ++k)
+    box *= domain->high[k] - domain->low[k];
+  return box;
+}
+
 static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
                                 float *speed)
 {
@@ -246,10 +254,7 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
       weights += fg__place_weight(domain, (double)speed[n]);
   double cell = pow(domain->spacing, domain->dimension);
   domain->whole = cell * (double)count;
-  double box = 1.0;
-  for (int k = 0; k < domain->dimension; ++k)
-    box *= domain->high[k] - domain->low[k];
-  domain->measure = fmax(LEAST_SHARE * box,
+  domain->measure = fmax(LEAST_SHARE * box_measure(domain),
                          cell * weights / fg__place_weight(domain, domain->greatest));
   return FG_STATUS_OK;
 }
@@ -343,12 +348,26 @@ static double taken_share(const fg__place_domain *given, const fg__place_domain 
   return (double)taken / (double)all;
 }
 
+/* Whether gaps may take much: about half of what they take is near to them. */
+static bool is_narrow(const fg__place_domain *domain)
+{
+  const size_t cells = map_count(domain);
+  const double near = TOO_NEAR * sqrt(box_measure(domain));
+  size_t all = 0, close = 0;
+  for (size_t n = 0; n < cells; ++n) {
+    all += domain->subdomain[n] != 0;
+    close += domain->subdomain[n] != 0 && (double)domain->clearance[n] < near;
+  }
+  return 2.0 * (double)close > LEAST_TAKEN * (double)all;
+}
+
 /* Takes the domain of the filled field instead, where gaps take much of the given one. */
 static fg_status fill_gaps(fg__place_domain *domain, fg_context *context)
 {
   fg__place_domain filled = {0};
-  fg_field *field;
-  fg_status status = fg__place_fill_gaps(&field, context, domain);
+  fg_field *field = NULL;
+  fg_status status =
+      is_narrow(domain) ? fg__place_fill_gaps(&field, context, domain) : FG_STATUS_OK;
   if (status != FG_STATUS_OK || !field)
     return status;
   status = map_domain(&filled, context, field);

@@ -15,6 +15,10 @@ enum { NARROW_SAMPLES = 3 };
 /* Straight walls are narrow, too, but one of so many times that width long. */
 enum { STRAIGHT = 4 };
 
+/* The search for gaps ends with a pass that adds less than one in so many; so many of
+ * them are asked whether they are in walls. */
+enum { HARDLY = 1000, SOME = 4096 };
+
 /* Of a sample. GAP: missing in a narrow hole. FRESH: found or filled in this pass. */
 typedef enum kind { MISSING, VALID, GAP, FRESH } kind;
 
@@ -56,36 +60,46 @@ static bool is_narrow(const holes *all, int k, int before, int after)
   return after - before <= NARROW_SAMPLES + 1 || axis[after] - axis[before] <= all->width;
 }
 
-/* Finds what is narrow on the line of samples along axis k that starts at sample
- * `first`. */
-static void bridge_line(holes *all, int k, size_t first)
+static bool is_there(const holes *all, size_t n)
 {
-  const size_t stride = k == 0 ? 1 : (size_t)all->field->size[0];
-  int before = -1;
-  for (int n = 0; n < all->field->size[k]; ++n) {
-    const unsigned char here = all->kind[first + (size_t)n * stride];
-    if (here != VALID && here != GAP)
-      continue;
-    if (before >= 0 && n > before + 1 && is_narrow(all, k, before, n))
-      for (int m = before + 1; m < n; ++m)
-        all->kind[first + (size_t)m * stride] = FRESH;
-    before = n;
+  return all->kind[n] == VALID || all->kind[n] == GAP;
+}
+
+/* Finds what is narrow along the axes. before: a column: room for the last sample that is
+ * there. */
+static void bridge(holes *all, int *before)
+{
+  const int *size = all->field->size;
+  const size_t row = (size_t)size[0];
+  for (int i = 0; i < size[0]; ++i)
+    before[i] = -1;
+  for (int j = 0; j < size[1]; ++j) {
+    const size_t first = (size_t)j * row;
+    int left = -1;
+    for (int i = 0; i < size[0]; ++i) {
+      if (!is_there(all, first + (size_t)i))
+        continue;
+      if (left >= 0 && i > left + 1 && is_narrow(all, 0, left, i))
+        memset(all->kind + first + left + 1, FRESH, (size_t)(i - left - 1));
+      if (before[i] >= 0 && j > before[i] + 1 && is_narrow(all, 1, before[i], j))
+        for (int m = before[i] + 1; m < j; ++m)
+          all->kind[(size_t)m * row + (size_t)i] = FRESH;
+      left = i;
+      before[i] = j;
+    }
   }
 }
 
-/* Finds narrow holes, and what is narrow with these bridged, until there is no more. */
-static size_t find_gaps(holes *all)
+/* Finds narrow holes, and what is narrow with these bridged, until there is hardly more.
+ */
+static size_t find_gaps(holes *all, int *before)
 {
-  const int *size = all->field->size;
   size_t count = 0, found;
   do {
-    for (int j = 0; j < size[1]; ++j)
-      bridge_line(all, 0, (size_t)j * (size_t)size[0]);
-    for (int i = 0; i < size[0]; ++i)
-      bridge_line(all, 1, (size_t)i);
+    bridge(all, before);
     found = turn(all, FRESH, GAP);
     count += found;
-  } while (found > 0);
+  } while (HARDLY * found > count);
   return count;
 }
 
@@ -93,26 +107,24 @@ static size_t find_gaps(holes *all)
 static double reach(const holes *all, const int at[2], const int step[2], double most)
 {
   const int *size = all->field->size;
-  double length = 0.0;
-  int x = at[0], y = at[1];
-  while (length <= most) {
-    x += step[0];
-    y += step[1];
-    if (x < 0 || x >= size[0] || y < 0 || y >= size[1] ||
-        !fg__field_is_missing(all->field, (size_t)y * (size_t)size[0] + (size_t)x))
-      break;
-    length += hypot(all->field->axis[0][x] - all->field->axis[0][x - step[0]],
-                    all->field->axis[1][y] - all->field->axis[1][y - step[1]]);
+  const double *const *axis = all->field->axis;
+  double way[2] = {0.0, 0.0};
+  for (int x = at[0] + step[0], y = at[1] + step[1];
+       x >= 0 && x < size[0] && y >= 0 && y < size[1] && fmax(way[0], way[1]) <= most &&
+       fg__field_is_missing(all->field, (size_t)y * (size_t)size[0] + (size_t)x);
+       x += step[0], y += step[1]) {
+    way[0] = fabs(axis[0][x] - axis[0][at[0]]);
+    way[1] = fabs(axis[1][y] - axis[1][at[1]]);
   }
-  return length;
+  return hypot(way[0], way[1]);
 }
 
 /* Whether a sample is in a hole that is long. */
 static bool is_in_wall(const holes *all, size_t sample)
 {
   static const int STEP[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
-  const int row = all->field->size[0];
-  const int at[2] = {(int)(sample % (size_t)row), (int)(sample / (size_t)row)};
+  const size_t row = (size_t)all->field->size[0];
+  const int at[2] = {(int)(sample % row), (int)(sample / row)};
   const double most =
       STRAIGHT * fmax(all->width, NARROW_SAMPLES * all->domain->data_step);
   for (int k = 0; k < 4; ++k) {
@@ -123,13 +135,17 @@ static bool is_in_wall(const holes *all, size_t sample)
   return false;
 }
 
-/* Whether most gaps are in no wall. */
+/* Whether most gaps are in no wall, by some of them. */
 static bool are_scattered(const holes *all, size_t count)
 {
-  size_t walls = 0;
+  const size_t every = 1 + count / SOME;
+  size_t gaps = 0, asked = 0, walls = 0;
   for (size_t n = 0; n < all->count; ++n)
-    walls += all->kind[n] == GAP && is_in_wall(all, n);
-  return 2 * walls < count;
+    if (all->kind[n] == GAP && gaps++ % every == 0) {
+      ++asked;
+      walls += is_in_wall(all, n);
+    }
+  return 2 * walls < asked;
 }
 
 /* The mean velocity at the valid neighbours along the axes; false: there are none. */
@@ -157,39 +173,54 @@ static bool mean_around(float mean[2], const holes *all, float *const velocity[2
   return count > 0;
 }
 
-/* Fills gaps from their sides on, a sample deep in each pass. */
-static void fill(holes *all, float *const velocity[2])
+/* Fills gaps from their sides on, a sample deep in each pass. gap: room for them. */
+static void fill(holes *all, float *const velocity[2], size_t *gap)
 {
-  do
-    for (size_t n = 0; n < all->count; ++n) {
+  size_t count = 0, left;
+  for (size_t n = 0; n < all->count; ++n)
+    if (all->kind[n] == GAP)
+      gap[count++] = n;
+  for (bool any = true; any; count = left) {
+    left = 0;
+    for (size_t k = 0; k < count; ++k) {
       float mean[2];
-      if (all->kind[n] != GAP || !mean_around(mean, all, velocity, n))
+      if (!mean_around(mean, all, velocity, gap[k]))
         continue;
-      velocity[0][n] = mean[0];
-      velocity[1][n] = mean[1];
-      all->kind[n] = FRESH;
+      velocity[0][gap[k]] = mean[0];
+      velocity[1][gap[k]] = mean[1];
+      all->kind[gap[k]] = FRESH;
     }
-  while (turn(all, FRESH, VALID) > 0);
+    for (size_t k = 0; k < count; ++k)
+      if (all->kind[gap[k]] == FRESH)
+        all->kind[gap[k]] = VALID;
+      else
+        gap[left++] = gap[k];
+    any = left < count;
+  }
 }
 
-static fg_status create_filled(fg_field **out, fg_context *context, holes *all)
+static fg_status create_filled(fg_field **out, fg_context *context, holes *all,
+                               size_t count)
 {
   const size_t bytes = all->count * sizeof(float);
   fg_field_arrays filled = *all->field;
   float *velocity[2] = {fg__allocate(all->count, sizeof(float)),
                         fg__allocate(all->count, sizeof(float))};
+  size_t *gap = fg__allocate(count, sizeof *gap);
   fg_status status = FG_STATUS_OK;
-  if (velocity[0] && velocity[1]) {
+  if (velocity[0] && velocity[1] && gap) {
     for (int k = 0; k < 2; ++k) {
       memcpy(velocity[k], all->field->velocity[k], bytes);
       filled.velocity[k] = velocity[k];
     }
-    fill(all, velocity);
+    fill(all, velocity, gap);
     filled.valid = all->kind;
     status = fg_field_create(out, context, &filled);
   } else {
-    status = fg__fail_memory(context, "a field without gaps", 2 * bytes);
+    status =
+        fg__fail_memory(context, "a field without gaps", 2 * bytes + count * sizeof *gap);
   }
+  free(gap);
   free(velocity[0]);
   free(velocity[1]);
   return status;
@@ -206,12 +237,16 @@ fg_status fg__place_fill_gaps(fg_field **out, fg_context *context,
     return FG_STATUS_OK;
   all.count = (size_t)all.field->size[0] * (size_t)all.field->size[1];
   all.kind = fg__allocate(all.count, 1);
-  if (!all.kind)
-    return fg__fail_memory(context, "the gaps of a field", all.count);
-  const size_t count = mark_missing(&all) ? find_gaps(&all) : 0;
-  const fg_status status = count > 0 && are_scattered(&all, count)
-                               ? create_filled(out, context, &all)
-                               : FG_STATUS_OK;
+  int *before = fg__allocate((size_t)all.field->size[0], sizeof *before);
+  fg_status status = FG_STATUS_OK;
+  if (!all.kind || !before) {
+    status = fg__fail_memory(context, "the gaps of a field", all.count);
+  } else {
+    const size_t count = mark_missing(&all) ? find_gaps(&all, before) : 0;
+    if (count > 0 && are_scattered(&all, count))
+      status = create_filled(out, context, &all, count);
+  }
+  free(before);
   free(all.kind);
   return status;
 }
