@@ -209,8 +209,9 @@ static fg_status find_axes(bool *found, fg__vtk *vtk)
       axis[i] = vtk->cells.position[3 * i * step + (size_t)k];
       rounding[k] = fmax(rounding[k], 4.0 * (double)FLT_EPSILON * fabs(axis[i]));
     }
+    const double sense = axis[length[k] - 1] < axis[0] ? -1.0 : 1.0;
     for (size_t i = 1; i < length[k]; ++i)
-      *found = *found && axis[i] - axis[i - 1] > rounding[k];
+      *found = *found && sense * (axis[i] - axis[i - 1]) > rounding[k];
     step *= length[k];
   }
   *found = *found && are_at_crossings(vtk, length, rounding);
