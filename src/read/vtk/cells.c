@@ -14,7 +14,14 @@ typedef struct topology {
   size_t at, end;   /* of the cell's among the corners */
   bool counted;     /* each cell begins with the number of its corners */
   size_t first_end; /* in `ends`: 1 where these begin with the first cell's beginning */
+  fg__vtk_values faces, face_ends; /* of polyhedra, none else */
+  size_t face_at;                  /* where those of the next one begin */
 } topology;
+
+static bool is_polyhedron(double type)
+{
+  return type >= 42.0 && type <= 42.0;
+}
 
 static fg_status fail_corners(const fg__vtk *vtk, const topology *t, size_t cell)
 {
@@ -45,16 +52,44 @@ typedef struct corner_room {
   size_t capacity;
 } corner_room;
 
-static fg_status add_cell(fg__vtk *vtk, const topology *t, double type,
+/* The numbers that tell a polyhedron's faces: [t->face_at, *end). */
+static fg_status find_faces(size_t *end, const fg__vtk *vtk, const topology *t,
+                            size_t cell)
+{
+  const double last = fg__vtk_value(&t->face_ends, cell);
+  if (!(last >= (double)t->face_at && last <= (double)t->faces.count))
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: the faces of cell %zu are not within those %zu numbers that "
+                    "there are",
+                    vtk->path, cell, t->faces.count);
+  *end = (size_t)last;
+  return FG_STATUS_OK;
+}
+
+/* Adds cell `cell` of the list, number `number` of all. */
+static fg_status add_cell(fg__vtk *vtk, topology *t, size_t cell, double type,
                           const fg__cell_points *points, int number, corner_room *room)
 {
+  const bool solid = t->faces.count > 0 && is_polyhedron(type);
   const size_t corners = t->end - t->at;
+  size_t faces_end = t->face_at;
+  fg_status status = solid ? find_faces(&faces_end, vtk, t, cell) : FG_STATUS_OK;
+  const size_t numbers = faces_end - t->face_at;
+  if (status != FG_STATUS_OK)
+    return status;
   void *all = room->corner;
-  if (!fg__grow(&all, &room->capacity, corners, sizeof *room->corner))
-    return fg__fail_memory(vtk->context, "a cell", corners * sizeof *room->corner);
+  if (!fg__grow(&all, &room->capacity, corners + numbers, sizeof *room->corner))
+    return fg__fail_memory(vtk->context, "a cell",
+                           (corners + numbers) * sizeof *room->corner);
   room->corner = all;
   for (size_t i = 0; i < corners; ++i)
     room->corner[i] = fg__vtk_value(&t->corners, t->at + i);
+  for (size_t i = 0; i < numbers; ++i)
+    room->corner[corners + i] = fg__vtk_value(&t->faces, t->face_at + i);
+  t->face_at = faces_end;
+  if (solid)
+    return fg__cell_set_add_polyhedron(&vtk->cells, room->corner, corners,
+                                       room->corner + corners, numbers, points, number);
   return fg__cell_set_add_as(
       &vtk->cells, type >= 0.0 && type <= 255.0 && floor(type) >= type ? (int)type : 255,
       room->corner, corners, points, number);
@@ -95,6 +130,27 @@ static fg_status find_corner_count(size_t *out, const fg__vtk *file,
   return FG_STATUS_OK;
 }
 
+/* Reads what a list says of its polyhedra, if it has any. */
+static fg_status read_faces(topology *t, const fg__vtk *file, const fg__vtk_list *list,
+                            size_t *room)
+{
+  bool some = false;
+  double most = 0.0;
+  for (size_t c = 0; c < list->cells && list->types != FG__VTK_NONE; ++c)
+    some = some || is_polyhedron(fg__vtk_value(&t->types, c));
+  if (!some || list->faces == FG__VTK_NONE || list->face_ends == FG__VTK_NONE)
+    return FG_STATUS_OK;
+  fg_status status = read_own(&t->face_ends, file, list->face_ends, list->cells, room);
+  for (size_t c = 0; c < list->cells && status == FG_STATUS_OK; ++c)
+    most = fmax(most, fg__vtk_value(&t->face_ends, c));
+  if (status == FG_STATUS_OK && !(most >= 1.0 && most <= INT_MAX))
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a piece's polyhedra have %g numbers of faces", file->path, most);
+  return status == FG_STATUS_OK
+             ? read_own(&t->faces, file, list->faces, (size_t)most, room)
+             : status;
+}
+
 /* `number` becomes that of the next list's first cell. */
 static fg_status read_list(fg__vtk *vtk, const fg__vtk *file, const fg__vtk_list *list,
                            const fg__cell_points *points, int *number, size_t *room)
@@ -114,17 +170,21 @@ static fg_status read_list(fg__vtk *vtk, const fg__vtk *file, const fg__vtk_list
     status = find_corner_count(&corners, file, list, &t);
   if (status == FG_STATUS_OK)
     status = read_own(&t.corners, file, list->corners, corners, room);
+  if (status == FG_STATUS_OK)
+    status = read_faces(&t, file, list, room);
   for (size_t c = 0; c < list->cells && status == FG_STATUS_OK; ++c) {
     status = next_cell(&t, file, c);
     if (status == FG_STATUS_OK)
-      status = add_cell(vtk, &t, typed ? fg__vtk_value(&t.types, c) : list->type, points,
-                        *number + (int)c, &of_cell);
+      status = add_cell(vtk, &t, c, typed ? fg__vtk_value(&t.types, c) : list->type,
+                        points, *number + (int)c, &of_cell);
   }
   *number += (int)list->cells;
   free(of_cell.corner);
   fg__vtk_values_clear(&t.types);
   fg__vtk_values_clear(&t.ends);
   fg__vtk_values_clear(&t.corners);
+  fg__vtk_values_clear(&t.faces);
+  fg__vtk_values_clear(&t.face_ends);
   return status;
 }
 

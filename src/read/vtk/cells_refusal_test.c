@@ -52,6 +52,55 @@ static void wrong_cells_of_xml_are_refused(void **state)
                       sizeof cases / sizeof cases[0]);
 }
 
+/* clang-format off */
+static const char POLYHEDRON[] =
+    "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>"
+    "<Piece NumberOfPoints='5' NumberOfCells='2'>"
+    POINTS(VECTOR("U", "1 0 2 3 0.2 2 1.5 1 2.5 1.25 0.3 5 2.5 1.2 4"))
+    "<Points>" VECTOR("P", "0 0 0 2 0.2 0 0.5 1 0.5 0.25 0.3 3 1.5 1.2 2") "</Points><Cells>"
+    SCALAR("connectivity", "0 1 2 3 1 2 3 4") SCALAR("offsets", "4 8")
+    SCALAR("types", "10 42")
+    SCALAR("faces", "4 3 1 2 3 3 1 2 4 3 2 3 4 3 3 1 4") SCALAR("faceoffsets", "-1 17")
+    "</Cells></Piece></UnstructuredGrid></VTKFile>";
+/* clang-format on */
+
+/* A velocity that is linear in space stays so. */
+static void polyhedra_are_read(void **state)
+{
+  static const example_change wrong[] = {
+      {"'faces'", "'sides'", FG_STATUS_UNSUPPORTED, "cell 1 is a polyhedron"},
+      {"'faceoffsets'", "'ends'", FG_STATUS_UNSUPPORTED, "cell 1 is a polyhedron"},
+      {"-1 17", "-1 -1", FG_STATUS_FILE_FORMAT, "0 numbers of faces"},
+      {"-1 17", "-1 nan", FG_STATUS_FILE_FORMAT, "numbers of faces"},
+      {"-1 17", "17 -1", FG_STATUS_FILE_FORMAT, "the faces of cell 1 are not within"},
+      {"-1 17", "-1 18", FG_STATUS_FILE_FORMAT, "is cut short"},
+      {"-1 17", "-1 1e9", FG_STATUS_FILE_FORMAT, "cut short"},
+      {"-1 17", "-1 16", FG_STATUS_FILE_FORMAT, "after its 16"},
+      {"4 3 1 2 3", "5 3 1 2 3", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"4 3 1 2 3", "4 nan 1 2 3", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"4 3 1 2 3", "4 3 1 2 5", FG_STATUS_FILE_FORMAT, "is point 5 of 5"},
+      {"1 2 3 4<", "1 2 3 5<", FG_STATUS_FILE_FORMAT, "is point 5 of 5"},
+  };
+  fg_field *field = example_field(*state, POLYHEDRON, NULL);
+  const fg_field_arrays *f = fg_field_contents(field);
+  int inside = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const int place[3] = {n % 10, n / 10 % 10, n / 100};
+    double at[3], u[3];
+    for (int k = 0; k < 3; ++k)
+      at[k] = f->axis[k][f->size[k] - 1] * (place[k] + 0.5) / 10.0;
+    if (!fg_field_velocity(field, at, u))
+      continue;
+    ++inside;
+    for (int k = 0; k < 3; ++k)
+      assert_true(fabs(u[k] - at[k] - (double[]){1.0, 0.0, 2.0}[k]) < 1e-4);
+  }
+  assert_true(inside > 100);
+  fg_field_destroy(field);
+  example_try_changes(*state, &fg__format_vti, POLYHEDRON, wrong,
+                      sizeof wrong / sizeof wrong[0]);
+}
+
 static const char GOOD_LEGACY[] =
     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
     "0 0 0 2 0 0 2 1 0 0 1 0\nCELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5 5\n"
@@ -188,6 +237,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(wrong_cells_of_xml_are_refused),
+      cmocka_unit_test(polyhedra_are_read),
       cmocka_unit_test(wrong_words_of_legacy_files_are_refused),
       cmocka_unit_test(truncated_files_are_refused_or_whole),
       cmocka_unit_test(damaged_files_do_no_harm),

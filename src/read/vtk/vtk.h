@@ -74,6 +74,7 @@ typedef struct fg__vtk_list {
   size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
                                          many as cells */
   int type;                           /* VTK's number of the one type */
+  size_t faces, face_ends;            /* of polyhedra; NONE: not there */
 } fg__vtk_list;
 
 /* Of polygonal data: vertices, lines, polygons and strips, in the order of the cells'
