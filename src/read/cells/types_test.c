@@ -326,14 +326,42 @@ static void a_polyhedron_is_filled(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* A layer of polyhedra is a plane, as one of hexahedra. */
+static void a_polyhedron_is_a_layer(void **state)
+{
+  double position[3 * 12];
+  for (int n = 0; n < 12; ++n) {
+    position[3 * n] = n % 6 < 3 ? 5.0 * (n % 6 % 3) : 5.0 * (5 - n % 6);
+    position[3 * n + 1] = n % 6 < 3 ? 0.5 * (n % 6) : 8.0;
+    position[3 * n + 2] = n < 6 ? 1.0 : 4.0;
+  }
+  fg__cell_set set = set_of(*state, position, 12);
+  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
+                   FG_STATUS_OK);
+  locate(&set);
+  assert_int_equal(set.flat, 2);
+  float *value = sample(&set, linear);
+  int inside = 0;
+  for (size_t n = 0; n < samples_of(&set); ++n) {
+    double at[3];
+    position_of(at, &set, n);
+    assert_true(fabs(at[2] - 2.5) < 1e-12);
+    inside += !isnan(value[n]);
+    assert_true(!isnan(value[n]) || at[1] < 1.01);
+    assert_true(isnan(value[n]) || fabs((double)value[n] - linear(at)) < 1e-4);
+  }
+  assert_true(inside > 10);
+  free(value);
+  fg__cell_set_clear(&set);
+}
+
 #define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_fill_their_cell),
-      CASE(polygons_and_strips_are_triangles),
-      CASE(a_polyhedron_is_filled),
+      CASE(parts_fill_their_cell),    CASE(polygons_and_strips_are_triangles),
+      CASE(a_polyhedron_is_filled),   CASE(a_polyhedron_is_a_layer),
       CASE(tilted_planes_are_turned),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
