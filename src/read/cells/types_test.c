@@ -355,14 +355,38 @@ static void a_polyhedron_is_a_layer(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* However many of a cell's parts meet in a point: it is one cell of those round it. */
+static void parts_count_once_in_means(void **state)
+{
+  double position[3 * 13];
+  for (int n = 0; n < 39; ++n)
+    position[n] = sin(n);
+  fg__cell_set set = set_of(*state, position, 13);
+  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
+                   FG_STATUS_OK);
+  add(&set, FG__CELL_TETRAHEDRON, (const int[]){0, 1, 7, 12});
+  set.file_points = set.points;
+  for (size_t i = 0; i < set.corners; ++i) /* the middle is not placed */
+    set.corner[i] = set.corner[i] < 0 ? 5 : set.corner[i];
+  const float of_cell[] = {1.0f, 4.0f};
+  float of_point[13];
+  assert_int_equal(fg__cell_set_to_points(of_point, &set, of_cell), FG_STATUS_OK);
+  for (int n = 0; n < 13; ++n) {
+    const bool shared = n == 0 || n == 1 || n == 7;
+    const double mean = n == 12 ? 4.0 : shared ? 2.5 : 1.0;
+    assert_true(fabs((double)of_point[n] - mean) < 1e-6);
+  }
+  fg__cell_set_clear(&set);
+}
+
 #define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_fill_their_cell),    CASE(polygons_and_strips_are_triangles),
-      CASE(a_polyhedron_is_filled),   CASE(a_polyhedron_is_a_layer),
-      CASE(tilted_planes_are_turned),
+      CASE(parts_fill_their_cell),     CASE(polygons_and_strips_are_triangles),
+      CASE(a_polyhedron_is_filled),    CASE(a_polyhedron_is_a_layer),
+      CASE(parts_count_once_in_means), CASE(tilted_planes_are_turned),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,24 +130,110 @@ static fg_status find_corner_count(size_t *out, const fg__vtk *file,
   return FG_STATUS_OK;
 }
 
+/* Reads as many numbers of an array as the largest of `ends` says. */
+static fg_status read_up_to(fg__vtk_values *out, const fg__vtk *file, size_t array,
+                            const fg__vtk_values *ends, double more, size_t *room)
+{
+  double most = 0.0;
+  for (size_t i = 0; i < ends->count; ++i)
+    most = fmax(most, fg__vtk_value(ends, i) + more);
+  if (!(most >= 1.0 && most <= INT_MAX))
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a piece's polyhedra have %g numbers of faces", file->path, most);
+  return read_own(out, file, array, (size_t)most, room);
+}
+
+/* Numbers [from, to) of which `all` there are; false where they are not. */
+static bool is_part(size_t part[2], double from, double to, size_t all)
+{
+  if (!(from >= 0.0 && to >= from && to <= (double)all))
+    return false;
+  part[0] = (size_t)from;
+  part[1] = (size_t)to;
+  return true;
+}
+
+/* Adds a face that is apart to `faces`; false where it is not there, or where faces have
+ * had more points than twice all: a face is that of two cells at most. */
+static bool add_face(fg__vtk_values *faces, size_t *used, const fg__vtk_values of[4],
+                     double number)
+{
+  double *out = (double *)(void *)faces->bytes;
+  size_t corners[2];
+  if (!(number >= 0.0 && number < (double)of[1].count))
+    return false;
+  const size_t f = (size_t)number;
+  if (!is_part(corners, f > 0 ? fg__vtk_value(&of[1], f - 1) : 0.0,
+               fg__vtk_value(&of[1], f), of[0].count))
+    return false;
+  *used += corners[1] - corners[0];
+  if (*used > 2 * of[0].count)
+    return false;
+  out[faces->count++] = (double)(corners[1] - corners[0]);
+  for (size_t n = corners[0]; n < corners[1]; ++n)
+    out[faces->count++] = fg__vtk_value(&of[0], n);
+  return true;
+}
+
+/* Brings faces that are apart, `of` in the order of list->apart, into those of each
+ * polyhedron. */
+static fg_status join_faces(topology *t, const fg__vtk *file, const fg__vtk_values of[4])
+{
+  const size_t cells = of[3].count, room = 2 * of[0].count + of[2].count + cells;
+  double *face = fg__allocate(room, sizeof *face),
+         *end = fg__allocate(cells, sizeof *end);
+  t->faces = (fg__vtk_values){(unsigned char *)face, FG__VTK_FLOAT64, 0, 0};
+  t->face_ends = (fg__vtk_values){(unsigned char *)end, FG__VTK_FLOAT64, 0, cells};
+  if (!face || !end)
+    return fg__fail_memory(file->context, "faces", (room + cells) * sizeof *face);
+  size_t used = 0, part[2] = {0, 0};
+  for (size_t c = 0; c < cells; ++c) {
+    bool good = is_part(part, (double)part[1], fg__vtk_value(&of[3], c), of[2].count);
+    if (good && part[1] > part[0])
+      face[t->faces.count++] = (double)(part[1] - part[0]);
+    for (size_t i = part[0]; good && i < part[1]; ++i)
+      good = add_face(&t->faces, &used, of, fg__vtk_value(&of[2], i));
+    if (!good)
+      return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                      "%s: the faces of cell %zu, a polyhedron, are not within those %zu "
+                      "that there are, or are those of more than one other",
+                      file->path, c, of[1].count);
+    end[c] = (double)t->faces.count;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status read_apart(topology *t, const fg__vtk *file, const fg__vtk_list *list,
+                            size_t *room)
+{
+  fg__vtk_values of[4] = {{0}};
+  fg_status status = read_own(&of[3], file, list->apart[3], list->cells, room);
+  for (int k = 2; k >= 0 && status == FG_STATUS_OK; --k)
+    status =
+        read_up_to(&of[k], file, list->apart[k], &of[k + 1], k == 1 ? 1.0 : 0.0, room);
+  if (status == FG_STATUS_OK)
+    status = join_faces(t, file, of);
+  for (int k = 0; k < 4; ++k)
+    fg__vtk_values_clear(&of[k]);
+  return status;
+}
+
 /* Reads what a list says of its polyhedra, if it has any. */
 static fg_status read_faces(topology *t, const fg__vtk *file, const fg__vtk_list *list,
                             size_t *room)
 {
-  bool some = false;
-  double most = 0.0;
+  bool some = false, apart = true;
   for (size_t c = 0; c < list->cells && list->types != FG__VTK_NONE; ++c)
     some = some || is_polyhedron(fg__vtk_value(&t->types, c));
+  for (int k = 0; k < 4; ++k)
+    apart = apart && list->apart[k] != FG__VTK_NONE;
+  if (some && apart)
+    return read_apart(t, file, list, room);
   if (!some || list->faces == FG__VTK_NONE || list->face_ends == FG__VTK_NONE)
     return FG_STATUS_OK;
   fg_status status = read_own(&t->face_ends, file, list->face_ends, list->cells, room);
-  for (size_t c = 0; c < list->cells && status == FG_STATUS_OK; ++c)
-    most = fmax(most, fg__vtk_value(&t->face_ends, c));
-  if (status == FG_STATUS_OK && !(most >= 1.0 && most <= INT_MAX))
-    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: a piece's polyhedra have %g numbers of faces", file->path, most);
   return status == FG_STATUS_OK
-             ? read_own(&t->faces, file, list->faces, (size_t)most, room)
+             ? read_up_to(&t->faces, file, list->faces, &t->face_ends, 0.0, room)
              : status;
 }
 

@@ -186,13 +186,16 @@ static fg_status read_points(fg__vtk *vtk, const xmlNode *node)
 static fg_status read_cells(fg__vtk *vtk, const xmlNode *node, const char *name,
                             int number)
 {
-  enum { NEEDED = 3, NAMES = 5 };
-  static const char *const names[NAMES] = {"connectivity", "offsets", "types", "faces",
-                                           "faceoffsets"};
+  enum { NEEDED = 3, NAMES = 9 };
+  static const char *const names[NAMES] = {
+      "connectivity",      "offsets",           "types",        "faces",
+      "faceoffsets",       "face_connectivity", "face_offsets", "polyhedron_to_faces",
+      "polyhedron_offsets"};
   const size_t first = vtk->array_count;
   fg__vtk_list *list = &vtk->pieces[vtk->piece_count - 1].list[number];
-  size_t *const found[NAMES] = {&list->corners, &list->ends, &list->types, &list->faces,
-                                &list->face_ends};
+  size_t *const found[NAMES] = {&list->corners,  &list->ends,      &list->types,
+                                &list->faces,    &list->face_ends, &list->apart[0],
+                                &list->apart[1], &list->apart[2],  &list->apart[3]};
   fg_status status = fg__vtk_read_arrays(vtk, node, name, FG__VTK_COORDINATES);
   for (int k = 0; k < (vtk->polygons ? 2 : NAMES) && status == FG_STATUS_OK; ++k) {
     for (size_t i = first; i < vtk->array_count; ++i)

@@ -75,6 +75,8 @@ typedef struct fg__vtk_list {
                                          many as cells */
   int type;                           /* VTK's number of the one type */
   size_t faces, face_ends;            /* of polyhedra; NONE: not there */
+  size_t apart[4]; /* the same from VTK 9.4 on: the faces' points, where each face ends,
+                      the polyhedra's faces, where each cell ends */
 } fg__vtk_list;
 
 /* Of polygonal data: vertices, lines, polygons and strips, in the order of the cells'
