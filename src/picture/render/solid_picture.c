@@ -219,7 +219,8 @@ static bool strip(solid_picture *p, const fg_field_arrays *field, bool bare[3],
   return more;
 }
 
-/* Looks at the box so that it and what is written round it fill the room. */
+/* Looks at the box so that it and what is written round it fill the room; *all becomes
+ * what they take. Returns whether that may stay. */
 static bool look(solid_picture *p, fg__pane *all, const fg_field_arrays *field,
                  detail_of_axes detail, cairo_t *ruler)
 {
