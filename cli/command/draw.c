@@ -160,7 +160,8 @@ static int check_panels(const drawn_panels *panels, const draw_settings *setting
     const drawn_run *run = panels->run[k];
     if (several && run->report.dimension == 3) {
       complain("%s: is in 3D, and panels show runs in 2D", run->folder);
-      advise("Draw one at a time.");
+      advise("Draw one at a time; icons of another program from the folder of a run on "
+             "their field.");
       return EXIT_FAILED;
     }
     code = check_dimension(settings, run->report.dimension, run->folder);

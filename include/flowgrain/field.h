@@ -134,8 +134,8 @@ typedef struct fg_plane {
 /* Cuts a field in 3D: the field in 2D of the velocity's components in the plane. A plane
  * along two axes keeps them, with all their samples, names, units and periods, and the
  * samples are the volume's own where the plane goes through them, else linear between the
- * two planes beside it. Any other plane becomes an even raster, about a sample wherever
- * an axis has one, interpolated (fg_field_velocity) and missing outside the volume. Its
+ * two planes beside it. Any other plane becomes an even raster, with a sample or several
+ * for one of the volume, interpolated (fg_field_velocity) and missing outside it. Its
  * axes: of the three the one nearest to the normal is left out; of the other two the one
  * nearer to the plane gives one direction, its projection; the other direction is
  * perpendicular to that; both are in the order of their axes, point their way, and

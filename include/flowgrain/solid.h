@@ -69,9 +69,10 @@ FG_API fg_status fg_solid_best_view(double *azimuth, double *elevation,
                                     const fg_icons *icons);
 
 /* The speeds along the arrows of icons in 3D, the ends of a colour key: of all their
- * length 2 % is slower than range[0] and 2 % is faster than range[1], input units. Of a
- * field that ranks share, or NULL, each arrow has its mean speed. 0, 0 without icons.
- * MEMORY, ARGUMENT. */
+ * length 2 % is slower than range[0] and 2 % is faster than range[1], input units;
+ * the faster for both where they differ by less than a ten-thousandth. Of a field that
+ * ranks share, or NULL, each arrow has its mean speed. 0, 0 without icons. MEMORY,
+ * ARGUMENT. */
 FG_API fg_status fg_solid_speed_range(double range[2], fg_context *context,
                                       const fg_field *field, const fg_icons *icons);
 

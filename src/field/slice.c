@@ -16,6 +16,10 @@ enum { MOST_SAMPLES = 1 << 22, NAME_BYTES = 256, WORDS_BYTES = 512 };
 /* Of an axis' length: a point so far outside is at the end, for it was rounded. */
 static const double ROUNDING = 1e-9;
 
+/* A raster has so many samples for one of the volume while it stays within FINE along its
+ * longer side. */
+static const double MOST_BETWEEN = 8.0, FINE = 512.0;
+
 /* Of uneven steps the one that so many are shorter than. */
 static const double SHORTER = 0.25;
 
@@ -206,7 +210,8 @@ static fg_status find_step(double *out, const cut *c, int k)
   return FG_STATUS_OK;
 }
 
-/* Along each direction a sample wherever it has gone on by a step of some axis. */
+/* Along each direction a sample wherever it has gone on by a step of some axis, and some
+ * between, so that where the plane leaves the box, aslant, are fine stairs. */
 static fg_status choose_raster(int size[2], const cut *c, const double low[2],
                                const double high[2])
 {
@@ -222,6 +227,9 @@ static fg_status choose_raster(int size[2], const cut *c, const double low[2],
       steps = fmax(steps, fabs(c->basis.direction[d][k]) / step[k]);
     intervals[d] = ceil((high[d] - low[d]) * steps * (1.0 - ROUNDING));
   }
+  const double more = floor(FINE / fmax(intervals[0], intervals[1]));
+  for (int d = 0; d < 2; ++d)
+    intervals[d] *= fmax(1.0, fmin(more, MOST_BETWEEN));
   const double all = (intervals[0] + 1.0) * (intervals[1] + 1.0);
   const double less = all > MOST_SAMPLES ? sqrt(MOST_SAMPLES / all) : 1.0;
   for (int d = 0; d < 2; ++d)

@@ -107,6 +107,26 @@ static void vtk_tensors_of_nine_and_six_components_are_read(void **state)
   }
 }
 
+static void axes_that_descend_are_reversed(void **state)
+{
+  folder *f = *state;
+  snprintf(f->path, sizeof f->path, "%s/tensors.vtk", f->name);
+  FILE *file = fopen(f->path, "w");
+  assert_non_null(file);
+  fprintf(file,
+          "# vtk DataFile Version 3.0\na title\nASCII\nDATASET RECTILINEAR_GRID\n"
+          "DIMENSIONS 4 3 1\nX_COORDINATES 4 float\n3 2 1 0\nY_COORDINATES 3 float\n"
+          "2 1 0\nZ_COORDINATES 1 float\n0\nPOINT_DATA 12\nTENSORS a double\n");
+  for (int j = NY - 1; j >= 0; --j)
+    for (int i = NX - 1; i >= 0; --i) {
+      double a[6];
+      tensor_of(a, i, j, 0.0);
+      fprintf(file, "%.9g %.9g 0  %.9g %.9g 0  0 0 1\n", a[0], a[1], a[1], a[2]);
+    }
+  assert_int_equal(fclose(file), 0);
+  assert_law(f, 2);
+}
+
 static void netcdf_variables_are_read(void **state)
 {
   folder *f = *state;
@@ -164,6 +184,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, folder_set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       CASE(vtk_tensors_of_nine_and_six_components_are_read),
+      CASE(axes_that_descend_are_reversed),
       CASE(netcdf_variables_are_read),
       CASE(tensors_of_another_dimension_are_refused),
   };

@@ -12,6 +12,9 @@
 /* Of the arrows' length, slower and faster than the ends of the colours. */
 static const double left_out = 0.02;
 
+/* Speeds that differ by less than this share are the same, but for interpolation. */
+static const double equal = 1e-4;
+
 fg_status fg__arrow_speeds(double **out, fg_context *context, const fg_field *field,
                            const fg_icon *icon)
 {
@@ -78,6 +81,8 @@ fg_status fg_solid_speed_range(double range[2], fg_context *context,
     status = add_pieces(pieces, &count, context, field, fg_icons_at(icons, n));
   if (!status)
     fg__weighted_range(range, pieces, count, left_out);
+  if (range[1] - range[0] < equal * range[1])
+    range[0] = range[1];
   free(pieces);
   return status;
 }

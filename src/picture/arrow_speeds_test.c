@@ -84,11 +84,47 @@ static void the_range_leaves_out_little_length(void **state)
   fg_field_destroy(field);
 }
 
+/* Of the range of an arrow through the box. */
+static double relative_range(bool (*law)(const double place[3], double velocity[3]))
+{
+  fg_field *field = field_of(law);
+  fg_icons *icons;
+  double range[2];
+  const fg_icon icon = along_x(3.2, 4.8);
+  assert_int_equal(fg__icons_create_empty(&icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg__icons_add(icons, NULL, &icon), FG_STATUS_OK);
+  assert_int_equal(fg_solid_speed_range(range, NULL, field, icons), FG_STATUS_OK);
+  fg_icons_destroy(icons);
+  fg_field_destroy(field);
+  return range[1] / range[0] - 1.0;
+}
+
+static bool hardly_faster_along_x(const double place[3], double velocity[3])
+{
+  velocity[1] = 3.0 + 1e-5 * place[0];
+  return true;
+}
+
+static bool little_faster_along_x(const double place[3], double velocity[3])
+{
+  velocity[1] = 3.0 + 1e-3 * place[0];
+  return true;
+}
+
+/* Colours that tell rounding errors apart would tell nothing. */
+static void speeds_that_hardly_differ_are_one(void **state)
+{
+  (void)state;
+  assert_true(fabs(relative_range(hardly_faster_along_x)) < 1e-12);
+  assert_true(relative_range(little_faster_along_x) > 3e-4);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(each_point_has_its_speed),
       cmocka_unit_test(the_range_leaves_out_little_length),
+      cmocka_unit_test(speeds_that_hardly_differ_are_one),
   };
   return cmocka_run_group_tests_name("picture/arrow_speeds", tests, NULL, NULL);
 }

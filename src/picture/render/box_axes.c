@@ -1,6 +1,7 @@
 #include "picture/render/box_axes.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "picture/page/text.h"
@@ -8,7 +9,7 @@
 /* In font sizes. */
 static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
 static const double least_step = 4.0; /* from one number to the next */
-static const double shortest_axis = 3.0;
+static const double shortest_axis = 3.0, shortest_named = 1.0;
 static const double bar_width = 0.9, name_gap = 0.8, label_line = 1.2;
 static const double bar_step = 2.4, least_bar_step = 1.2; /* so near only for a second */
 static const double digit_height = 0.72;
@@ -139,9 +140,18 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
     pixel_at(view_box, camera, out->edge[k], k, -view_box->half[k], from);
     pixel_at(view_box, camera, out->edge[k], k, view_box->half[k], to);
     const double along[2] = {to[0] - from[0], to[1] - from[1]};
-    out->edge[k][k] = hypot(along[0], along[1]) > shortest_axis * em;
+    out->length[k] = hypot(along[0], along[1]);
+    out->edge[k][k] = out->length[k] > shortest_axis * em;
     choose_ticks(out, k, along, ruler);
   }
+}
+
+void fg__box_axes_bare(fg__box_axes *axes, const fg_field_arrays *field, int axis)
+{
+  fg__tick_axis *of = &axes->axis[axis];
+  snprintf(of->label, sizeof of->label, "%s", field->axis_name[axis]);
+  axes->ticks[axis].count = 0;
+  axes->edge[axis][axis] = axes->length[axis] > shortest_named * axes->em;
 }
 
 static bool are_same(const fg__box_text *a, const fg__box_text *b)

@@ -279,6 +279,64 @@ static void small_pictures_are_read(void **state)
   free(svg);
 }
 
+static double number_after(const char *element, const char *name)
+{
+  const char *at = strstr(element, name);
+  assert_non_null(at);
+  return atof(at + strlen(name));
+}
+
+/* The box of an SVG's text. */
+static fg__pane box_of(const char *element)
+{
+  const double x = number_after(element, " x=\""), y = number_after(element, " y=\"");
+  const double size = number_after(element, " font-size=\"");
+  const double width = number_after(element, " textLength=\"");
+  const char *anchor = strstr(element, "text-anchor=\"middle");
+  const double start = anchor && anchor < strchr(element, '>') ? x - width / 2.0 : x;
+  return (fg__pane){start, y - 0.72 * size, start + width, y};
+}
+
+/* However small a picture is: no text is cut off at its edges or lies over another, and
+ * each axis that is seen long enough has its name. */
+static void no_text_of_a_small_picture_is_cut(void **state)
+{
+  enum { MOST = 64 };
+  static const double sides[][3] = {
+      {0.1, 0.1, 0.3}, {5000, 4000, 4200}, {1e-5, 2e-5, 1.5e-5}, {1, 1, 1}, {9, 6, 2}};
+  static const double views[][2] = {{30, 22}, {0, 0}, {-60, -50}, {0, 90}};
+  (void)state;
+  for (size_t s = 0; s < sizeof sides / sizeof sides[0]; ++s)
+    for (size_t v = 0; v < sizeof views / sizeof views[0]; ++v)
+      for (int width = 150; width < 350; width += 80) {
+        const fg_solid_options options = {.width = width,
+                                          .pixels_per_point = 2.0,
+                                          .has_view = true,
+                                          .azimuth = views[v][0],
+                                          .elevation = views[v][1],
+                                          .speed_min = 0.001,
+                                          .speed_max = 0.0035,
+                                          .title = "a"};
+        char *svg = write_picture("a.svg", sides[s], &options);
+        const double page[2] = {number_after(svg, " width=\""),
+                                number_after(svg, " height=\"")};
+        fg__pane box[MOST];
+        int count = 0;
+        for (const char *at = svg; (at = strstr(at, "<text ")) && count < MOST; ++at) {
+          const fg__pane *one = &box[count];
+          box[count++] = box_of(at);
+          assert_true(one->x0 >= 0.0 && one->x1 <= page[0]);
+          assert_true(one->y0 >= 0.0 && one->y1 <= page[1]);
+          for (int n = 0; n < count - 1; ++n)
+            assert_false(are_near(one, &box[n], 0.0, 0.0));
+        }
+
+        assert_true(v > 0 ||
+                    (strstr(svg, ">x") && strstr(svg, ">y") && strstr(svg, ">z")));
+        free(svg);
+      }
+}
+
 /* They can be searched and edited, unless shapes are wanted. */
 static void texts_of_svg_stay_texts(void **state)
 {
@@ -351,6 +409,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(small_pictures_are_read),
+      cmocka_unit_test(no_text_of_a_small_picture_is_cut),
       cmocka_unit_test(texts_of_svg_stay_texts),
       cmocka_unit_test(long_texts_are_whole),
       cmocka_unit_test(a_file_has_the_pixels_that_are_drawn),

@@ -35,6 +35,10 @@ static const double widest_label = 14.0, narrowest_label = 6.0, label_share = 0.
 /* What is written takes at most this share of what the caption and the key leave. */
 static const double most_written = 0.7;
 
+/* The box has at least this share of what is left, along one side; else axes have no
+ * numbers. */
+static const double least_box = 0.4;
+
 /* The white round each arrow, of the picture's larger side. */
 static const double halo_share = 0.0021;
 
@@ -49,6 +53,11 @@ static const double title_grey = 0.1, subtitle_grey = 0.4;
 
 /* The colour bar is this much of the picture high. */
 static const double bar_share = 0.34;
+
+/* What is written at the axes: numbers and names, of one that is too short for numbers
+ * its name alone; the same of one that was once too short, where numbers come and go with
+ * the box's size; names alone. */
+typedef enum detail_of_axes { NUMBERS = 0, SETTLED, NAMES } detail_of_axes;
 
 typedef struct solid_picture {
   fg__rendering rendering;
@@ -141,6 +150,13 @@ static fg__pane key_pane(const solid_picture *p, cairo_t *ruler)
                     r->width - edge * p->em, middle + high / 2.0};
 }
 
+/* The height of the picture where the key just fits below the caption. */
+static double least_key_height(const solid_picture *p)
+{
+  return (caption_end(p) + fg__color_bar_rise(p->em, &p->label) + edge * p->em) /
+         (1.0 - bar_share);
+}
+
 /* What is left for the box and its numbers. */
 static fg__pane room_of(const solid_picture *p, cairo_t *ruler)
 {
@@ -175,23 +191,70 @@ static void shrink(double *low, double *high, double below, double above)
   *high -= share * above;
 }
 
-/* Looks at the box so that it and what is written round it fill the room. Returns what
- * they take. */
-static fg__pane fit(solid_picture *p, const fg_field_arrays *field, cairo_t *ruler)
+/* Whether a view of the box may stay: what is written round it lies in the room, or not
+ * far beyond, and leaves it a fair share. */
+static bool is_fair(const fg__pane *all, const fg__pane *box, const fg__pane *room,
+                    double em)
+{
+  const double slack = edge / 2.0 * em;
+  return all->x0 > room->x0 - slack && all->x1 < room->x1 + slack &&
+         all->y0 > room->y0 - slack && all->y1 < room->y1 + slack &&
+         (box->x1 - box->x0 > least_box * (room->x1 - room->x0) ||
+          box->y1 - box->y0 > least_box * (room->y1 - room->y0));
+}
+
+/* Takes the numbers off the axes that are too short for them, and off those that `bare`
+ * has and `keeps`. Returns whether it has more than before. */
+static bool strip(solid_picture *p, const fg_field_arrays *field, bool bare[3],
+                  bool keeps)
+{
+  bool more = false;
+  for (int k = 0; k < 3; ++k) {
+    const bool is_short = !p->axes.edge[k][k];
+    more = more || (is_short && !bare[k]);
+    bare[k] = is_short || (keeps && bare[k]);
+    if (bare[k])
+      fg__box_axes_bare(&p->axes, field, k);
+  }
+  return more;
+}
+
+/* Looks at the box so that it and what is written round it fill the room; *all becomes
+ * what they take. Returns whether that may stay. */
+static bool look(solid_picture *p, fg__pane *all, const fg_field_arrays *field,
+                 detail_of_axes detail, cairo_t *ruler)
 {
   enum { TURNS = 3 }; /* numbers change a little with the box's size */
   fg__rendering *r = &p->rendering;
-  fg__pane box = {0}, all = {0};
-  for (int turn = 0; turn < TURNS; ++turn) {
-    fg__pane pane = room_of(p, ruler);
-    shrink(&pane.x0, &pane.x1, box.x0 - all.x0, all.x1 - box.x1);
-    shrink(&pane.y0, &pane.y1, box.y0 - all.y0, all.y1 - box.y1);
+  const fg__pane room = room_of(p, ruler);
+  const bool named = detail == NAMES;
+  fg__pane box, written = {0}; /* written: how far it reaches out of the box */
+  bool bare[3] = {named, named, named};
+  for (int turn = 0; turn < (detail == NUMBERS ? TURNS : 3 * TURNS); ++turn) {
+    fg__pane pane = room, least = detail == NUMBERS ? (fg__pane){0} : written;
+    shrink(&pane.x0, &pane.x1, written.x0, written.x1);
+    shrink(&pane.y0, &pane.y1, written.y0, written.y1);
     fg__camera_look(&r->camera, &r->view_box, p->azimuth, p->elevation, &pane);
-    all = box = box_bounds(r);
+    *all = box = box_bounds(r);
     fg__box_axes_of(&p->axes, field, &r->view_box, &r->camera, p->em, ruler);
+    if (strip(p, field, bare, detail != NUMBERS))
+      least = (fg__pane){0};
     if (p->framed)
-      fg__box_axes_place(&p->axes, &all, &r->view_box, &r->camera, ruler);
+      fg__box_axes_place(&p->axes, all, &r->view_box, &r->camera, ruler);
+    written =
+        (fg__pane){fmax(box.x0 - all->x0, least.x0), fmax(box.y0 - all->y0, least.y0),
+                   fmax(all->x1 - box.x1, least.x1), fmax(all->y1 - box.y1, least.y1)};
   }
+  return is_fair(all, &box, &room, p->em);
+}
+
+/* Returns what the box and what is written round it take. */
+static fg__pane fit(solid_picture *p, const fg_field_arrays *field, cairo_t *ruler)
+{
+  fg__pane all;
+  int detail = NUMBERS;
+  while (!look(p, &all, field, (detail_of_axes)detail, ruler) && detail < NAMES)
+    ++detail;
   return all;
 }
 
@@ -234,7 +297,7 @@ static void trim(solid_picture *p, const fg__pane *used, const fg_solid_options 
                            room.y1 - room.y0 - (used->y1 - used->y0)};
   const double size[2] = {r->width, r->height};
   double least[2] = {fmax(flattest * size[1], caption_width(p, ruler)),
-                     flattest * size[0]};
+                     fmax(flattest * size[0], p->has_key ? least_key_height(p) : 0.0)};
   for (int k = 0; k < 2; ++k)
     least[k] = fmax(ceil(size[k] - spare[k]), ceil(least[k]));
   if (options->width == 0)

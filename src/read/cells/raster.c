@@ -93,7 +93,10 @@ static bool is_layer(const fg__cell_set *set, const cell_box *box, int axis)
   const double most = FLAT * (box->high[axis] - box->low[axis]);
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
-      const double at = fg__cell_set_corner(set, c, i)[axis];
+      const size_t point = (size_t)set->corner[set->first[c] + (size_t)i];
+      const double at = set->position[3 * point + (size_t)axis];
+      if (set->middles > 0 && point >= set->file_points)
+        continue; /* a middle lies between the sides */
       if (at - box->low[axis] > most && box->high[axis] - at > most)
         return false;
     }

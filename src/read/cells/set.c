@@ -190,14 +190,19 @@ fg_status fg__cell_set_to_points(float *of_point, const fg__cell_set *set,
 {
   double *sum = fg__allocate(set->points, sizeof *sum);
   int *cells = fg__allocate(set->points, sizeof *cells);
-  if (!sum || !cells) {
+  int *latest = fg__allocate(set->points, sizeof *latest); /* 1 + the cell counted last */
+  if (!sum || !cells || !latest) {
     free(sum);
     free(cells);
-    return fg__fail_memory(set->context, "means of cells", set->points * 12);
+    free(latest);
+    return fg__fail_memory(set->context, "means of cells", set->points * 16);
   }
   for (size_t c = 0; c < set->count; ++c)
     for (int i = 0; i < fg__cell_corners(set->shape[c]); ++i) {
       const int point = set->corner[set->first[c] + (size_t)i];
+      if (latest[point] == 1 + set->number[c])
+        continue; /* by another of its parts */
+      latest[point] = 1 + set->number[c];
       sum[point] += (double)of_cell[set->number[c]];
       ++cells[point];
     }
@@ -205,6 +210,7 @@ fg_status fg__cell_set_to_points(float *of_point, const fg__cell_set *set,
     of_point[p] = cells[p] > 0 ? (float)(sum[p] / cells[p]) : NAN;
   free(sum);
   free(cells);
+  free(latest);
   return FG_STATUS_OK;
 }
 

@@ -28,7 +28,8 @@ typedef struct fg__cell_place {
 } fg__cell_place;
 
 /* A point that no file has: in the middle of a face or a body of a quadratic cell, where
- * the cell's own functions have so much of its corners and of the points between them. */
+ * the cell's own functions have so much of its corners and of the points between them; or
+ * the mean of a polyhedron's points, all of them `betweens`. */
 typedef struct fg__cell_middle {
   size_t first; /* of its parents: first corners, then points between two */
   int corners, betweens;
@@ -95,6 +96,13 @@ fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double
  */
 fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
                               size_t nodes, const fg__cell_points *points, int number);
+
+/* Adds a polyhedron: between its faces and the mean of its points lie pyramids, which are
+ * added as tetrahedra; so it should be convex. `face`: how many faces, and of each how
+ * many points and which, `numbers` in all. FILE_FORMAT, else as above. */
+fg_status fg__cell_set_add_polyhedron(fg__cell_set *set, const double *node, size_t nodes,
+                                      const double *face, size_t numbers,
+                                      const fg__cell_points *points, int number);
 
 /* The points' places in `position` of a cell's nodes. FILE_FORMAT (no such point). */
 fg_status fg__cell_set_resolve(int *out, const fg__cell_set *set, const double *node,

@@ -169,11 +169,11 @@ static fg_status fail_nodes(const fg__cell_set *set, const char *name, size_t no
                   nodes, expected);
 }
 
-/* Adds a middle among a cell's points; *out is its place. */
-static fg_status add_middle(int *out, fg__cell_set *set, const middle_of *middle,
-                            const int *point)
+/* Adds a middle of so many points; *out is its place. */
+static fg_status add_middle(int *out, fg__cell_set *set, int corners, int betweens,
+                            const int *parent)
 {
-  const int count = middle->corners + middle->betweens;
+  const int count = corners + betweens;
   void *middles = set->middle, *parents = set->parent;
   if (set->middles >= INT_MAX / 2)
     return fg__fail(set->context, FG_STATUS_UNSUPPORTED, "%s: more than %d points",
@@ -186,10 +186,9 @@ static fg_status add_middle(int *out, fg__cell_set *set, const middle_of *middle
     return fg__fail_memory(set->context, "middles of cells", set->parents * sizeof(int));
   set->parent = parents;
   *out = -1 - (int)set->middles;
-  set->middle[set->middles++] =
-      (fg__cell_middle){set->parents, middle->corners, middle->betweens};
+  set->middle[set->middles++] = (fg__cell_middle){set->parents, corners, betweens};
   for (int i = 0; i < count; ++i)
-    set->parent[set->parents++] = point[middle->node[i]];
+    set->parent[set->parents++] = parent[i];
   return FG_STATUS_OK;
 }
 
@@ -197,8 +196,14 @@ static fg_status add_parts(fg__cell_set *set, const cell_type *type, int *point,
                            int number)
 {
   fg_status status = FG_STATUS_OK;
-  for (int m = 0; m < type->middles && status == FG_STATUS_OK; ++m)
-    status = add_middle(&point[type->nodes + m], set, &type->middle[m], point);
+  for (int m = 0; m < type->middles && status == FG_STATUS_OK; ++m) {
+    const middle_of *middle = &type->middle[m];
+    int parent[MOST_NODES];
+    for (int i = 0; i < middle->corners + middle->betweens; ++i)
+      parent[i] = point[middle->node[i]];
+    status = add_middle(&point[type->nodes + m], set, middle->corners, middle->betweens,
+                        parent);
+  }
   for (int p = 0; p < type->parts && status == FG_STATUS_OK; ++p) {
     const part *one = &type->part[p];
     int corner[FG__CELL_CORNERS] = {0};
@@ -296,4 +301,63 @@ fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
     return fail_nodes(set, known->name, nodes, known->nodes, number);
   fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
   return status == FG_STATUS_OK ? add_parts(set, known, point, number) : status;
+}
+
+/* The pyramids between a face and the middle, in tetrahedra: from the face's first point
+ * in the file's order, so that it is divided alike from both its sides. */
+static fg_status add_face(fg__cell_set *set, const int *point, size_t corners, int middle,
+                          int number)
+{
+  size_t first = 0;
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 1; i < corners; ++i)
+    first = point[i] < point[first] ? i : first;
+  for (size_t i = 1; i + 1 < corners && status == FG_STATUS_OK; ++i)
+    status = fg__cell_set_add_points(set, FG__CELL_TETRAHEDRON,
+                                     (int[4]){point[first], point[(first + i) % corners],
+                                              point[(first + i + 1) % corners], middle},
+                                     number);
+  return status;
+}
+
+static fg_status add_faces(fg__cell_set *set, int *point, int middle, const double *face,
+                           size_t numbers, const fg__cell_points *points, int number)
+{
+  size_t at = 1;
+  fg_status status = FG_STATUS_OK;
+  for (double f = 0.0; f < face[0] && status == FG_STATUS_OK; ++f) {
+    const double corners = at < numbers ? face[at++] : -1.0;
+    if (!(corners >= 0.0 && corners <= (double)(numbers - at)))
+      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                      "%s: the faces of cell %d, a polyhedron, are not within their %zu "
+                      "numbers",
+                      set->path, number, numbers);
+    status = fg__cell_set_resolve(point, set, face + at, (size_t)corners, points, number);
+    if (status == FG_STATUS_OK)
+      status = add_face(set, point, (size_t)corners, middle, number);
+    at += (size_t)corners;
+  }
+  return status;
+}
+
+fg_status fg__cell_set_add_polyhedron(fg__cell_set *set, const double *node, size_t nodes,
+                                      const double *face, size_t numbers,
+                                      const fg__cell_points *points, int number)
+{
+  if (nodes < 4 || nodes > INT_MAX || numbers == 0)
+    return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                    "%s: cell %d is a polyhedron with %zu corners and %zu numbers of its "
+                    "faces",
+                    set->path, number, nodes, numbers);
+  const size_t room = nodes > numbers ? nodes : numbers;
+  int *point = fg__allocate(room, sizeof *point), middle = 0;
+  if (!point)
+    return fg__fail_memory(set->context, "a polyhedron", room * sizeof *point);
+  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
+  if (status == FG_STATUS_OK)
+    status = add_middle(&middle, set, 0, (int)nodes, point);
+  if (status == FG_STATUS_OK)
+    status = add_faces(set, point, middle, face, numbers, points, number);
+  free(point);
+  return status;
 }

@@ -267,14 +267,126 @@ static void tilted_planes_are_turned(void **state)
   }
 }
 
+/* A prism over a hexagon, each of its faces begun at another point. */
+static const double PRISM_FACES[] = {8, 6, 5, 4,  3, 2, 1,  0,  6, 8, 9, 10, 11, 6, 7,
+                                     4, 1, 7, 6,  0, 4, 1,  2,  8, 7, 4, 9,  8,  2, 3,
+                                     4, 3, 4, 10, 9, 4, 11, 10, 4, 5, 4, 5,  0,  6, 11};
+
+static fg_status add_prism(fg__cell_set *set, size_t nodes, size_t numbers)
+{
+  double node[12];
+  for (int i = 0; i < 12; ++i)
+    node[i] = (5 * i) % 12; /* in any order */
+  const fg__cell_points all = {0, set->points};
+  set->numbers = 1;
+  return fg__cell_set_add_polyhedron(set, node, nodes, PRISM_FACES, numbers, &all, 0);
+}
+
+static void a_polyhedron_is_filled(void **state)
+{
+  enum { NUMBERS = sizeof PRISM_FACES / sizeof PRISM_FACES[0] };
+  static const double hexagon[6][2] = {{2, 0}, {4, 0}, {5, 2}, {4, 4}, {2, 4}, {1, 2}};
+  double position[3 * 12];
+  for (int n = 0; n < 12; ++n) {
+    position[3 * n] = hexagon[n % 6][0];
+    position[3 * n + 1] = hexagon[n % 6][1];
+    position[3 * n + 2] = n < 6 ? 1.0 : 4.0;
+  }
+  fg__cell_set set = set_of(*state, position, 12);
+  assert_int_equal(add_prism(&set, 12, NUMBERS), FG_STATUS_OK);
+  assert_int_equal(fg__cell_set_count(&set), 1);
+  locate(&set);
+  assert_int_equal(set.points, 13);
+  float of_point[13], *value = malloc(samples_of(&set) * sizeof *value);
+  assert_non_null(value);
+  for (size_t p = 0; p < 12; ++p)
+    of_point[p] = (float)linear(position + 3 * p);
+  fg__cell_set_fill_middles(of_point, &set);
+  fg__cell_set_sample(value, &set, of_point, 0, samples_of(&set));
+  for (size_t n = 0; n < samples_of(&set); ++n) {
+    double at[3];
+    position_of(at, &set, n);
+    const double off = fmax(0.0, fabs(at[1] - 2.0) / 2.0 + fabs(at[0] - 3.0) - 2.0);
+    assert_true(isnan(value[n]) ? off > 0.0 : off < 1e-3);
+    if (!isnan(value[n]))
+      assert_true(fabs((double)value[n] - linear(at)) < 1e-4);
+  }
+  free(value);
+  fg__cell_set_clear(&set);
+  for (size_t numbers = 0; numbers < NUMBERS; ++numbers) {
+    set = set_of(*state, position, 12);
+    assert_int_equal(add_prism(&set, 12, numbers), FG_STATUS_FILE_FORMAT);
+    fg__cell_set_clear(&set);
+  }
+  set = set_of(*state, position, 12);
+  assert_int_equal(add_prism(&set, 3, NUMBERS), FG_STATUS_FILE_FORMAT);
+  fg__cell_set_clear(&set);
+  set = set_of(*state, position, 11); /* one point less than the faces have */
+  assert_int_equal(add_prism(&set, 4, NUMBERS), FG_STATUS_FILE_FORMAT);
+  fg__cell_set_clear(&set);
+}
+
+/* A layer of polyhedra is a plane, as one of hexahedra. */
+static void a_polyhedron_is_a_layer(void **state)
+{
+  double position[3 * 12];
+  for (int n = 0; n < 12; ++n) {
+    position[3 * n] = n % 6 < 3 ? 5.0 * (n % 6 % 3) : 5.0 * (5 - n % 6);
+    position[3 * n + 1] = n % 6 < 3 ? 0.5 * (n % 6) : 8.0;
+    position[3 * n + 2] = n < 6 ? 1.0 : 4.0;
+  }
+  fg__cell_set set = set_of(*state, position, 12);
+  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
+                   FG_STATUS_OK);
+  locate(&set);
+  assert_int_equal(set.flat, 2);
+  float *value = sample(&set, linear);
+  int inside = 0;
+  for (size_t n = 0; n < samples_of(&set); ++n) {
+    double at[3];
+    position_of(at, &set, n);
+    assert_true(fabs(at[2] - 2.5) < 1e-12);
+    inside += !isnan(value[n]);
+    assert_true(!isnan(value[n]) || at[1] < 1.01);
+    assert_true(isnan(value[n]) || fabs((double)value[n] - linear(at)) < 1e-4);
+  }
+  assert_true(inside > 10);
+  free(value);
+  fg__cell_set_clear(&set);
+}
+
+/* However many of a cell's parts meet in a point: it is one cell of those round it. */
+static void parts_count_once_in_means(void **state)
+{
+  double position[3 * 13];
+  for (int n = 0; n < 39; ++n)
+    position[n] = sin(n);
+  fg__cell_set set = set_of(*state, position, 13);
+  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
+                   FG_STATUS_OK);
+  add(&set, FG__CELL_TETRAHEDRON, (const int[]){0, 1, 7, 12});
+  set.file_points = set.points;
+  for (size_t i = 0; i < set.corners; ++i) /* the middle is not placed */
+    set.corner[i] = set.corner[i] < 0 ? 5 : set.corner[i];
+  const float of_cell[] = {1.0f, 4.0f};
+  float of_point[13];
+  assert_int_equal(fg__cell_set_to_points(of_point, &set, of_cell), FG_STATUS_OK);
+  for (int n = 0; n < 13; ++n) {
+    const bool shared = n == 0 || n == 1 || n == 7;
+    const double mean = n == 12 ? 4.0 : shared ? 2.5 : 1.0;
+    assert_true(fabs((double)of_point[n] - mean) < 1e-6);
+  }
+  fg__cell_set_clear(&set);
+}
+
 #define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_fill_their_cell),
-      CASE(polygons_and_strips_are_triangles),
-      CASE(tilted_planes_are_turned),
+      CASE(parts_fill_their_cell),     CASE(polygons_and_strips_are_triangles),
+      CASE(a_polyhedron_is_filled),    CASE(a_polyhedron_is_a_layer),
+      CASE(parts_count_once_in_means), CASE(tilted_planes_are_turned),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,14 @@ typedef struct topology {
   size_t at, end;   /* of the cell's among the corners */
   bool counted;     /* each cell begins with the number of its corners */
   size_t first_end; /* in `ends`: 1 where these begin with the first cell's beginning */
+  fg__vtk_values faces, face_ends; /* of polyhedra, none else */
+  size_t face_at;                  /* where those of the next one begin */
 } topology;
+
+static bool is_polyhedron(double type)
+{
+  return type >= 42.0 && type <= 42.0;
+}
 
 static fg_status fail_corners(const fg__vtk *vtk, const topology *t, size_t cell)
 {
@@ -45,16 +52,44 @@ typedef struct corner_room {
   size_t capacity;
 } corner_room;
 
-static fg_status add_cell(fg__vtk *vtk, const topology *t, double type,
+/* The numbers that tell a polyhedron's faces: [t->face_at, *end). */
+static fg_status find_faces(size_t *end, const fg__vtk *vtk, const topology *t,
+                            size_t cell)
+{
+  const double last = fg__vtk_value(&t->face_ends, cell);
+  if (!(last >= (double)t->face_at && last <= (double)t->faces.count))
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: the faces of cell %zu are not within those %zu numbers that "
+                    "there are",
+                    vtk->path, cell, t->faces.count);
+  *end = (size_t)last;
+  return FG_STATUS_OK;
+}
+
+/* Adds cell `cell` of the list, number `number` of all. */
+static fg_status add_cell(fg__vtk *vtk, topology *t, size_t cell, double type,
                           const fg__cell_points *points, int number, corner_room *room)
 {
+  const bool solid = t->faces.count > 0 && is_polyhedron(type);
   const size_t corners = t->end - t->at;
+  size_t faces_end = t->face_at;
+  fg_status status = solid ? find_faces(&faces_end, vtk, t, cell) : FG_STATUS_OK;
+  const size_t numbers = faces_end - t->face_at;
+  if (status != FG_STATUS_OK)
+    return status;
   void *all = room->corner;
-  if (!fg__grow(&all, &room->capacity, corners, sizeof *room->corner))
-    return fg__fail_memory(vtk->context, "a cell", corners * sizeof *room->corner);
+  if (!fg__grow(&all, &room->capacity, corners + numbers, sizeof *room->corner))
+    return fg__fail_memory(vtk->context, "a cell",
+                           (corners + numbers) * sizeof *room->corner);
   room->corner = all;
   for (size_t i = 0; i < corners; ++i)
     room->corner[i] = fg__vtk_value(&t->corners, t->at + i);
+  for (size_t i = 0; i < numbers; ++i)
+    room->corner[corners + i] = fg__vtk_value(&t->faces, t->face_at + i);
+  t->face_at = faces_end;
+  if (solid)
+    return fg__cell_set_add_polyhedron(&vtk->cells, room->corner, corners,
+                                       room->corner + corners, numbers, points, number);
   return fg__cell_set_add_as(
       &vtk->cells, type >= 0.0 && type <= 255.0 && floor(type) >= type ? (int)type : 255,
       room->corner, corners, points, number);
@@ -95,6 +130,113 @@ static fg_status find_corner_count(size_t *out, const fg__vtk *file,
   return FG_STATUS_OK;
 }
 
+/* Reads as many numbers of an array as the largest of `ends` says. */
+static fg_status read_up_to(fg__vtk_values *out, const fg__vtk *file, size_t array,
+                            const fg__vtk_values *ends, double more, size_t *room)
+{
+  double most = 0.0;
+  for (size_t i = 0; i < ends->count; ++i)
+    most = fmax(most, fg__vtk_value(ends, i) + more);
+  if (!(most >= 1.0 && most <= INT_MAX))
+    return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                    "%s: a piece's polyhedra have %g numbers of faces", file->path, most);
+  return read_own(out, file, array, (size_t)most, room);
+}
+
+/* Numbers [from, to) of which `all` there are; false where they are not. */
+static bool is_part(size_t part[2], double from, double to, size_t all)
+{
+  if (!(from >= 0.0 && to >= from && to <= (double)all))
+    return false;
+  part[0] = (size_t)from;
+  part[1] = (size_t)to;
+  return true;
+}
+
+/* Adds a face that is apart to `faces`; false where it is not there, or where faces have
+ * had more points than twice all: a face is that of two cells at most. */
+static bool add_face(fg__vtk_values *faces, size_t *used, const fg__vtk_values of[4],
+                     double number)
+{
+  double *out = (double *)(void *)faces->bytes;
+  size_t corners[2];
+  if (!(number >= 0.0 && number < (double)of[1].count))
+    return false;
+  const size_t f = (size_t)number;
+  if (!is_part(corners, f > 0 ? fg__vtk_value(&of[1], f - 1) : 0.0,
+               fg__vtk_value(&of[1], f), of[0].count))
+    return false;
+  *used += corners[1] - corners[0];
+  if (*used > 2 * of[0].count)
+    return false;
+  out[faces->count++] = (double)(corners[1] - corners[0]);
+  for (size_t n = corners[0]; n < corners[1]; ++n)
+    out[faces->count++] = fg__vtk_value(&of[0], n);
+  return true;
+}
+
+/* Brings faces that are apart, `of` in the order of list->apart, into those of each
+ * polyhedron. */
+static fg_status join_faces(topology *t, const fg__vtk *file, const fg__vtk_values of[4])
+{
+  const size_t cells = of[3].count, room = 2 * of[0].count + of[2].count + cells;
+  double *face = fg__allocate(room, sizeof *face),
+         *end = fg__allocate(cells, sizeof *end);
+  t->faces = (fg__vtk_values){(unsigned char *)face, FG__VTK_FLOAT64, 0, 0};
+  t->face_ends = (fg__vtk_values){(unsigned char *)end, FG__VTK_FLOAT64, 0, cells};
+  if (!face || !end)
+    return fg__fail_memory(file->context, "faces", (room + cells) * sizeof *face);
+  size_t used = 0, part[2] = {0, 0};
+  for (size_t c = 0; c < cells; ++c) {
+    bool good = is_part(part, (double)part[1], fg__vtk_value(&of[3], c), of[2].count);
+    if (good && part[1] > part[0])
+      face[t->faces.count++] = (double)(part[1] - part[0]);
+    for (size_t i = part[0]; good && i < part[1]; ++i)
+      good = add_face(&t->faces, &used, of, fg__vtk_value(&of[2], i));
+    if (!good)
+      return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                      "%s: the faces of cell %zu, a polyhedron, are not within those %zu "
+                      "that there are, or are those of more than one other",
+                      file->path, c, of[1].count);
+    end[c] = (double)t->faces.count;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status read_apart(topology *t, const fg__vtk *file, const fg__vtk_list *list,
+                            size_t *room)
+{
+  fg__vtk_values of[4] = {{0}};
+  fg_status status = read_own(&of[3], file, list->apart[3], list->cells, room);
+  for (int k = 2; k >= 0 && status == FG_STATUS_OK; --k)
+    status =
+        read_up_to(&of[k], file, list->apart[k], &of[k + 1], k == 1 ? 1.0 : 0.0, room);
+  if (status == FG_STATUS_OK)
+    status = join_faces(t, file, of);
+  for (int k = 0; k < 4; ++k)
+    fg__vtk_values_clear(&of[k]);
+  return status;
+}
+
+/* Reads what a list says of its polyhedra, if it has any. */
+static fg_status read_faces(topology *t, const fg__vtk *file, const fg__vtk_list *list,
+                            size_t *room)
+{
+  bool some = false, apart = true;
+  for (size_t c = 0; c < list->cells && list->types != FG__VTK_NONE; ++c)
+    some = some || is_polyhedron(fg__vtk_value(&t->types, c));
+  for (int k = 0; k < 4; ++k)
+    apart = apart && list->apart[k] != FG__VTK_NONE;
+  if (some && apart)
+    return read_apart(t, file, list, room);
+  if (!some || list->faces == FG__VTK_NONE || list->face_ends == FG__VTK_NONE)
+    return FG_STATUS_OK;
+  fg_status status = read_own(&t->face_ends, file, list->face_ends, list->cells, room);
+  return status == FG_STATUS_OK
+             ? read_up_to(&t->faces, file, list->faces, &t->face_ends, 0.0, room)
+             : status;
+}
+
 /* `number` becomes that of the next list's first cell. */
 static fg_status read_list(fg__vtk *vtk, const fg__vtk *file, const fg__vtk_list *list,
                            const fg__cell_points *points, int *number, size_t *room)
@@ -114,17 +256,21 @@ static fg_status read_list(fg__vtk *vtk, const fg__vtk *file, const fg__vtk_list
     status = find_corner_count(&corners, file, list, &t);
   if (status == FG_STATUS_OK)
     status = read_own(&t.corners, file, list->corners, corners, room);
+  if (status == FG_STATUS_OK)
+    status = read_faces(&t, file, list, room);
   for (size_t c = 0; c < list->cells && status == FG_STATUS_OK; ++c) {
     status = next_cell(&t, file, c);
     if (status == FG_STATUS_OK)
-      status = add_cell(vtk, &t, typed ? fg__vtk_value(&t.types, c) : list->type, points,
-                        *number + (int)c, &of_cell);
+      status = add_cell(vtk, &t, c, typed ? fg__vtk_value(&t.types, c) : list->type,
+                        points, *number + (int)c, &of_cell);
   }
   *number += (int)list->cells;
   free(of_cell.corner);
   fg__vtk_values_clear(&t.types);
   fg__vtk_values_clear(&t.ends);
   fg__vtk_values_clear(&t.corners);
+  fg__vtk_values_clear(&t.faces);
+  fg__vtk_values_clear(&t.face_ends);
   return status;
 }
 
@@ -209,8 +355,9 @@ static fg_status find_axes(bool *found, fg__vtk *vtk)
       axis[i] = vtk->cells.position[3 * i * step + (size_t)k];
       rounding[k] = fmax(rounding[k], 4.0 * (double)FLT_EPSILON * fabs(axis[i]));
     }
+    const double sense = axis[length[k] - 1] < axis[0] ? -1.0 : 1.0;
     for (size_t i = 1; i < length[k]; ++i)
-      *found = *found && axis[i] - axis[i - 1] > rounding[k];
+      *found = *found && sense * (axis[i] - axis[i - 1]) > rounding[k];
     step *= length[k];
   }
   *found = *found && are_at_crossings(vtk, length, rounding);

@@ -52,6 +52,98 @@ static void wrong_cells_of_xml_are_refused(void **state)
                       sizeof cases / sizeof cases[0]);
 }
 
+/* clang-format off */
+static const char POLYHEDRON[] =
+    "<VTKFile type='UnstructuredGrid'><UnstructuredGrid>"
+    "<Piece NumberOfPoints='5' NumberOfCells='2'>"
+    POINTS(VECTOR("U", "1 0 2 3 0.2 2 1.5 1 2.5 1.25 0.3 5 2.5 1.2 4"))
+    "<Points>" VECTOR("P", "0 0 0 2 0.2 0 0.5 1 0.5 0.25 0.3 3 1.5 1.2 2") "</Points><Cells>"
+    SCALAR("connectivity", "0 1 2 3 1 2 3 4") SCALAR("offsets", "4 8")
+    SCALAR("types", "10 42")
+    SCALAR("faces", "4 3 1 2 3 3 1 2 4 3 2 3 4 3 3 1 4") SCALAR("faceoffsets", "-1 17")
+    "</Cells></Piece></UnstructuredGrid></VTKFile>";
+/* clang-format on */
+
+/* A velocity that is linear in space stays so. */
+static void assert_linear_within(fg_context *context, const char *file)
+{
+  fg_field *field = example_field(context, file, NULL);
+  const fg_field_arrays *f = fg_field_contents(field);
+  int inside = 0;
+  for (int n = 0; n < 1000; ++n) {
+    const int place[3] = {n % 10, n / 10 % 10, n / 100};
+    double at[3], u[3];
+    for (int k = 0; k < 3; ++k)
+      at[k] = f->axis[k][f->size[k] - 1] * (place[k] + 0.5) / 10.0;
+    if (!fg_field_velocity(field, at, u))
+      continue;
+    ++inside;
+    for (int k = 0; k < 3; ++k)
+      assert_true(fabs(u[k] - at[k] - (double[]){1.0, 0.0, 2.0}[k]) < 1e-4);
+  }
+  assert_true(inside > 100);
+  fg_field_destroy(field);
+}
+
+static void polyhedra_are_read(void **state)
+{
+  static const example_change wrong[] = {
+      {"'faces'", "'sides'", FG_STATUS_UNSUPPORTED, "cell 1 is a polyhedron"},
+      {"'faceoffsets'", "'ends'", FG_STATUS_UNSUPPORTED, "cell 1 is a polyhedron"},
+      {"-1 17", "-1 -1", FG_STATUS_FILE_FORMAT, "0 numbers of faces"},
+      {"-1 17", "-1 nan", FG_STATUS_FILE_FORMAT, "numbers of faces"},
+      {"-1 17", "17 -1", FG_STATUS_FILE_FORMAT, "the faces of cell 1 are not within"},
+      {"-1 17", "-1 18", FG_STATUS_FILE_FORMAT, "is cut short"},
+      {"-1 17", "-1 1e9", FG_STATUS_FILE_FORMAT, "cut short"},
+      {"-1 17", "-1 16", FG_STATUS_FILE_FORMAT, "after its 16"},
+      {"4 3 1 2 3", "5 3 1 2 3", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"4 3 1 2 3", "4 nan 1 2 3", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"4 3 1 2 3", "4 3 1 2 5", FG_STATUS_FILE_FORMAT, "is point 5 of 5"},
+      {"1 2 3 4<", "1 2 3 5<", FG_STATUS_FILE_FORMAT, "is point 5 of 5"},
+  };
+  assert_linear_within(*state, POLYHEDRON);
+  example_try_changes(*state, &fg__format_vti, POLYHEDRON, wrong,
+                      sizeof wrong / sizeof wrong[0]);
+}
+
+/* clang-format off */
+static const char FACES[] =
+    SCALAR("faces", "4 3 1 2 3 3 1 2 4 3 2 3 4 3 3 1 4") SCALAR("faceoffsets", "-1 17");
+
+/* As VTK writes them from 9.4 on. */
+static const char FACES_APART[] =
+    SCALAR("face_connectivity", "1 2 3 1 2 4 2 3 4 3 1 4") SCALAR("face_offsets", "3 6 9 12")
+    SCALAR("polyhedron_to_faces", "3 0 2 1") SCALAR("polyhedron_offsets", "0 4");
+/* clang-format on */
+
+static void faces_may_be_apart(void **state)
+{
+  static const example_change apart = {FACES, FACES_APART, FG_STATUS_OK, ""};
+  static const example_change wrong[] = {
+      {"'face_offsets'", "'ends'", FG_STATUS_UNSUPPORTED, "cell 1 is a polyhedron"},
+      {"3 6 9 12", "3 6 9 13", FG_STATUS_FILE_FORMAT, "cut short"},
+      {"3 6 9 12", "3 6 5 12", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"3 6 9 12", "-3 6 9 12", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"3 6 9 12", "3 nan 9 12", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {">3 0 2 1<", ">3 0 2 9<", FG_STATUS_FILE_FORMAT, "cut short"},
+      {">3 0 2 1<", ">3 0 2 -1<", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"'>0 4<", "'>0 3<", FG_STATUS_FILE_FORMAT, "after its 3"},
+      {"'>0 4<", "'>4 0<", FG_STATUS_FILE_FORMAT, "the faces of cell 1"},
+      {"'>0 4<", "'>0 0<", FG_STATUS_FILE_FORMAT, "numbers of faces"},
+      {"1 2 3 1 2 4 2", "1 2 3 1 2 5 2", FG_STATUS_FILE_FORMAT, "is point 5 of 5"},
+  };
+  static const example_change often = {">3 0 2 1<", ">3 3 3 3 3 3 3 3 3<", 0, ""};
+  static const example_change nine = {"'>0 4<", "'>0 9<", FG_STATUS_FILE_FORMAT,
+                                      "of more than one other"};
+  char file[EXAMPLE_FILE_BYTES], other[EXAMPLE_FILE_BYTES];
+  example_changed(file, POLYHEDRON, &apart);
+  assert_linear_within(*state, file);
+  example_try_changes(*state, &fg__format_vti, file, wrong,
+                      sizeof wrong / sizeof wrong[0]);
+  example_changed(other, file, &often);
+  example_try_changes(*state, &fg__format_vti, other, &nine, 1);
+}
+
 static const char GOOD_LEGACY[] =
     "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
     "0 0 0 2 0 0 2 1 0 0 1 0\nCELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5 5\n"
@@ -188,6 +280,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(wrong_cells_of_xml_are_refused),
+      cmocka_unit_test(polyhedra_are_read),
+      cmocka_unit_test(faces_may_be_apart),
       cmocka_unit_test(wrong_words_of_legacy_files_are_refused),
       cmocka_unit_test(truncated_files_are_refused_or_whole),
       cmocka_unit_test(damaged_files_do_no_harm),

@@ -77,16 +77,37 @@ static void every_way_of_writing_gives_the_same_field(void **state)
   fg_field_destroy(first);
 }
 
-static example_text structured(bool binary, double shear)
+/* From the last point to the first: then all three axes descend. */
+static void turn_back(double numbers[3 * COUNT])
+{
+  for (size_t n = 0; n < COUNT / 2; ++n)
+    for (size_t c = 0; c < 3; ++c) {
+      double *one = &numbers[3 * n + c], *other = &numbers[3 * (COUNT - 1 - n) + c];
+      const double kept = *one;
+      *one = *other;
+      *other = kept;
+    }
+}
+
+static example_text structured_so(bool binary, double shear, bool back)
 {
   example_text file = {0};
   double place[3 * COUNT], vector[3 * COUNT];
   grid_points(place, vector, shear);
+  if (back) {
+    turn_back(place);
+    turn_back(vector);
+  }
   begin_legacy(&file, binary, "STRUCTURED_GRID\nDIMENSIONS 5 4 3\nPOINTS 60 double\n");
   example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64, place, 3 * COUNT);
   example_words(&file, "POINT_DATA 60\nVECTORS U double\n");
   example_legacy_numbers(&file, binary, EXAMPLE_FLOAT64, vector, 3 * COUNT);
   return file;
+}
+
+static example_text structured(bool binary, double shear)
+{
+  return structured_so(binary, shear, false);
 }
 
 /* The same grid as a list of hexahedra, the cells' turned about. */
@@ -185,14 +206,15 @@ static void a_flat_curvilinear_grid_is_a_plane(void **state)
   fg_field_destroy(field);
 }
 
-/* A grid whose points are where lines along the axes cross keeps its axes and samples. */
+/* A grid whose points are where lines along the axes cross keeps its axes and samples,
+ * also where the lines run against an axis. */
 static void a_curvilinear_grid_along_the_axes_stays_as_it_is(void **state)
 {
   double place[3 * COUNT], vector[3 * COUNT];
   grid_points(place, vector, 0.0);
-  for (int way = 0; way < 3; ++way) {
-    fg_field *field =
-        field_of(*state, way == 2 ? vts(&RAW, 0.0) : structured(way, 0.0), NULL);
+  for (int way = 0; way < 4; ++way) {
+    fg_field *field = field_of(
+        *state, way == 2 ? vts(&RAW, 0.0) : structured_so(way == 1, 0.0, way == 3), NULL);
     const fg_field_arrays *f = fg_field_contents(field);
     const int size[3] = {NX, NY, NZ};
     for (int k = 0; k < 3; ++k) {

@@ -40,6 +40,35 @@ size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid)
   return fg__vtk_grid_points(grid) / grid->points[last_axis(grid)] * grid->rows;
 }
 
+double fg__vtk_grid_coordinate(const fg__vtk_grid *grid, const fg__vtk *vtk, int k,
+                               size_t i)
+{
+  return fg__vtk_coordinate(vtk, grid->axis[k],
+                            grid->descends[k] ? grid->points[k] - 1 - i : i);
+}
+
+static void exchange(float *a, float *b, size_t count)
+{
+  for (size_t i = 0; i < count; ++i) {
+    const float kept = a[i];
+    a[i] = b[i];
+    b[i] = kept;
+  }
+}
+
+void fg__vtk_grid_reverse(float *samples, const fg__vtk_grid *grid)
+{
+  const float *end = samples + fg__vtk_grid_wanted(grid);
+  size_t step = 1;
+  for (int k = 0; k < grid->dimension; ++k) {
+    const size_t length = k == last_axis(grid) ? grid->rows : grid->points[k];
+    for (float *at = samples; grid->descends[k] && at < end; at += length * step)
+      for (size_t i = 0; i < length / 2; ++i)
+        exchange(at + i * step, at + (length - 1 - i) * step, step);
+    step *= length;
+  }
+}
+
 fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk)
 {
   size_t points[3];
@@ -53,6 +82,8 @@ fg_status fg__vtk_grid_find(fg__vtk_grid *out, const fg__vtk *vtk)
   for (int k = 0; k < 3; ++k)
     if (k != out->flat) {
       out->axis[out->dimension] = k;
+      out->descends[out->dimension] =
+          vtk->uneven && vtk->coordinate[k][points[k] - 1] < vtk->coordinate[k][0];
       out->points[out->dimension++] = points[k];
     }
   out->rows = out->points[last_axis(out)];

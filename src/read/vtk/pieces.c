@@ -186,16 +186,22 @@ static fg_status read_points(fg__vtk *vtk, const xmlNode *node)
 static fg_status read_cells(fg__vtk *vtk, const xmlNode *node, const char *name,
                             int number)
 {
-  static const char *const names[3] = {"connectivity", "offsets", "types"};
+  enum { NEEDED = 3, NAMES = 9 };
+  static const char *const names[NAMES] = {
+      "connectivity",      "offsets",           "types",        "faces",
+      "faceoffsets",       "face_connectivity", "face_offsets", "polyhedron_to_faces",
+      "polyhedron_offsets"};
   const size_t first = vtk->array_count;
   fg__vtk_list *list = &vtk->pieces[vtk->piece_count - 1].list[number];
-  size_t *const found[3] = {&list->corners, &list->ends, &list->types};
+  size_t *const found[NAMES] = {&list->corners,  &list->ends,      &list->types,
+                                &list->faces,    &list->face_ends, &list->apart[0],
+                                &list->apart[1], &list->apart[2],  &list->apart[3]};
   fg_status status = fg__vtk_read_arrays(vtk, node, name, FG__VTK_COORDINATES);
-  for (int k = 0; k < (vtk->polygons ? 2 : 3) && status == FG_STATUS_OK; ++k) {
+  for (int k = 0; k < (vtk->polygons ? 2 : NAMES) && status == FG_STATUS_OK; ++k) {
     for (size_t i = first; i < vtk->array_count; ++i)
       if (strcmp(vtk->arrays[i].name, names[k]) == 0 && vtk->arrays[i].components == 1)
         *found[k] = i;
-    if (*found[k] == FG__VTK_NONE)
+    if (*found[k] == FG__VTK_NONE && k < NEEDED)
       status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                         "%s: line %ld: a piece's cells without array \"%s\"", vtk->path,
                         xmlGetLineNo(node), names[k]);

@@ -71,7 +71,7 @@ static fg_status create_axes(double *out[3], const fg__vtk *vtk, const fg__vtk_g
     if (!out[k])
       return fg__fail_memory(vtk->context, "an axis", count * sizeof(double));
     for (size_t i = 0; i < count; ++i)
-      out[k][i] = fg__vtk_coordinate(vtk, axis, i);
+      out[k][i] = fg__vtk_grid_coordinate(grid, vtk, k, i);
     if (!vtk->uneven && (!(out[k][1] > out[k][0]) || !isfinite(out[k][count - 1])))
       return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                       "%s: points along %c from %g in steps of %g are no axis", vtk->path,
@@ -294,8 +294,8 @@ static fg_status describe(fg_inventory_vector *entry, const fg__vtk *vtk,
   entry->cells = fg__cell_set_count(&vtk->cells);
   for (int k = 0; k < grid.dimension && status == FG_STATUS_OK; ++k) {
     entry->size[k] = (int)grid.points[k];
-    entry->bounds[2 * k] = fg__vtk_coordinate(vtk, grid.axis[k], 0);
-    entry->bounds[2 * k + 1] = fg__vtk_coordinate(vtk, grid.axis[k], grid.points[k] - 1);
+    entry->bounds[2 * k] = fg__vtk_grid_coordinate(&grid, vtk, k, 0);
+    entry->bounds[2 * k + 1] = fg__vtk_grid_coordinate(&grid, vtk, k, grid.points[k] - 1);
   }
   if (status == FG_STATUS_OK)
     status = fg__vtk_words_find(&words, vtk);

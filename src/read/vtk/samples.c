@@ -354,15 +354,22 @@ fg_status fg__vtk_samples_read(float *out[3], const fg__vtk *vtk,
                                const fg__vtk_grid *grid, const fg__vtk_vector *vector,
                                const char *mask, bool normal)
 {
+  const int last = grid->dimension - 1;
+  fg__vtk_grid stored = *grid; /* the same rows as the file counts them */
+  if (grid->descends[last])
+    stored.first_row = grid->points[last] - grid->first_row - grid->rows;
   out[0] = out[1] = out[2] = NULL;
-  fg_status status = read_vector(out, vtk, grid, vector, normal);
+  fg_status status = read_vector(out, vtk, &stored, vector, normal);
   if (status == FG_STATUS_OK)
-    status = apply_known_marks(out, vtk, grid);
+    status = apply_known_marks(out, vtk, &stored);
   if (status == FG_STATUS_OK && mask)
-    status = apply_mask(out, vtk, grid, mask);
-  for (int k = 0; k < 3 && status != FG_STATUS_OK; ++k) {
-    free(out[k]);
-    out[k] = NULL;
-  }
+    status = apply_mask(out, vtk, &stored, mask);
+  for (int k = 0; k < 3; ++k)
+    if (status != FG_STATUS_OK) {
+      free(out[k]);
+      out[k] = NULL;
+    } else if (out[k]) {
+      fg__vtk_grid_reverse(out[k], grid);
+    }
   return status;
 }

@@ -68,13 +68,15 @@ static fg_status make_row(fg_field **out, const fg__vtk *vtk, const fg__vtk_grid
     arrays.velocity[k] = velocity ? velocity + (size_t)k * count : NULL;
     whole = whole && axis[k];
     for (size_t i = 0; i < grid->points[k] && axis[k]; ++i)
-      axis[k][i] = fg__vtk_coordinate(vtk, grid->axis[k], i);
+      axis[k][i] = fg__vtk_grid_coordinate(grid, vtk, k, i);
   }
-  for (int k = 0; k < dimension && whole; ++k)
+  for (int k = 0; k < dimension && whole; ++k) {
     for (size_t n = 0; n < count; ++n)
       velocity[(size_t)k * count + n] =
           (float)entry(values, array->components, n, grid->axis[entries[k][0]],
                        grid->axis[entries[k][1]]);
+    fg__vtk_grid_reverse(velocity + (size_t)k * count, grid);
+  }
   fg_status status = whole ? fg_field_create(out, vtk->context, &arrays)
                            : fg__fail_memory(vtk->context, "tensors", count * 12);
   free(velocity);

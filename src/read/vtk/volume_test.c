@@ -290,6 +290,88 @@ static void rectilinear_grids_have_their_own_axes(void **state)
   fg_field_destroy(field);
 }
 
+static void add_number(example_text *file, double number)
+{
+  char words[64];
+  snprintf(words, sizeof words, " %g", number);
+  example_words(file, words);
+}
+
+/* A rectilinear grid whose axes of `which` (bits) descend, and with them its vectors U;
+ * M is zero at one place. */
+static example_text descending(int which, bool cells)
+{
+  const int points[3] = {NX, NY, NZ}, less = cells ? 1 : 0;
+  int at[3], place[3];
+  example_text file = {0};
+  example_words(&file, "<VTKFile type='RectilinearGrid'><RectilinearGrid "
+                       "WholeExtent='0 4 0 3 0 2'><Piece Extent='0 4 0 3 0 2'>"
+                       "<Coordinates>");
+  for (int k = 0; k < 3; ++k) {
+    example_words(&file, "<DataArray type='Float64'>");
+    for (int i = 0; i < points[k]; ++i) {
+      const int n = which >> k & 1 ? points[k] - 1 - i : i;
+      add_number(&file, k + n + 0.25 * n * n);
+    }
+    example_words(&file, "</DataArray>");
+  }
+  example_words(&file, "</Coordinates>");
+  for (int marks = 0; marks < 2; ++marks) {
+    example_words(&file, marks   ? "<DataArray type='Float64' Name='M'>"
+                         : cells ? "<CellData><DataArray type='Float64' "
+                                   "NumberOfComponents='3' Name='U'>"
+                                 : "<PointData><DataArray type='Float64' "
+                                   "NumberOfComponents='3' Name='U'>");
+    for (at[2] = 0; at[2] < NZ - less; ++at[2])
+      for (at[1] = 0; at[1] < NY - less; ++at[1])
+        for (at[0] = 0; at[0] < NX - less; ++at[0]) {
+          for (int k = 0; k < 3; ++k)
+            place[k] = which >> k & 1 ? points[k] - less - 1 - at[k] : at[k];
+          if (marks)
+            add_number(&file, place[0] + 2 * place[1] != 3 || place[2] != 1);
+          else
+            for (int c = 0; c < 3; ++c)
+              add_number(&file, sample(place[0], place[1], place[2], c));
+        }
+    example_words(&file, "</DataArray>");
+  }
+  example_words(&file, cells ? "</CellData>" : "</PointData>");
+  example_words(&file, "</Piece></RectilinearGrid></VTKFile>");
+  return file;
+}
+
+/* Whichever of its axes descend in the file: it is the field of ascending ones. */
+static void axes_that_descend_are_reversed(void **state)
+{
+  for (int cells = 0; cells < 2; ++cells)
+    for (int masked = 0; masked < 2; ++masked) {
+      const fg_read_options options = {.mask = masked ? "M" : NULL};
+      example_text file = descending(0, cells);
+      fg_field *ascending = field_of(*state, &file, &options);
+      const fg_field_arrays *a = fg_field_contents(ascending);
+      if (!cells && !masked)
+        assert_points(ascending);
+      for (int which = 1; which < 8; ++which) {
+        int missing = 0;
+        file = descending(which, cells);
+        fg_field *field = field_of(*state, &file, &options);
+        const fg_field_arrays *f = fg_field_contents(field);
+        for (int k = 0; k < 3; ++k) {
+          assert_memory_equal(f->axis[k], a->axis[k],
+                              (size_t)a->size[k] * sizeof(double));
+          for (size_t n = 0; n < COUNT; ++n) {
+            missing += isnan(f->velocity[k][n]);
+            assert_true(f->velocity[k][n] == a->velocity[k][n] ||
+                        (isnan(f->velocity[k][n]) && isnan(a->velocity[k][n])));
+          }
+        }
+        assert_true((missing > 0) == masked && missing < 3 * COUNT);
+        fg_field_destroy(field);
+      }
+      fg_field_destroy(ascending);
+    }
+}
+
 static void wrong_coordinates_are_refused(void **state)
 {
   static const struct {
@@ -337,6 +419,7 @@ int main(void)
       cmocka_unit_test(two_layers_are_a_plane),
       cmocka_unit_test(an_inventory_tells_of_a_volume),
       cmocka_unit_test(rectilinear_grids_have_their_own_axes),
+      cmocka_unit_test(axes_that_descend_are_reversed),
       cmocka_unit_test(wrong_coordinates_are_refused),
   };
   return cmocka_run_group_tests_name("read/vtk/volume", tests, context_set_up,

@@ -37,7 +37,13 @@ fg_status fg__vtk_add_piece(fg__vtk *vtk, const int extent[6])
   fg__vtk_piece *piece = &vtk->pieces[vtk->piece_count++];
   *piece = (fg__vtk_piece){.first_array = vtk->array_count, .positions = FG__VTK_NONE};
   for (int k = 0; k < FG__VTK_LISTS; ++k)
-    piece->list[k].corners = piece->list[k].types = piece->list[k].ends = FG__VTK_NONE;
+    piece->list[k] =
+        (fg__vtk_list){.corners = FG__VTK_NONE,
+                       .types = FG__VTK_NONE,
+                       .ends = FG__VTK_NONE,
+                       .faces = FG__VTK_NONE,
+                       .face_ends = FG__VTK_NONE,
+                       .apart = {FG__VTK_NONE, FG__VTK_NONE, FG__VTK_NONE, FG__VTK_NONE}};
   memcpy(piece->extent, extent, sizeof piece->extent);
   return FG_STATUS_OK;
 }

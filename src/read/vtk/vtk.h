@@ -74,6 +74,9 @@ typedef struct fg__vtk_list {
   size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
                                          many as cells */
   int type;                           /* VTK's number of the one type */
+  size_t faces, face_ends;            /* of polyhedra; NONE: not there */
+  size_t apart[4]; /* the same from VTK 9.4 on: the faces' points, where each face ends,
+                      the polyhedra's faces, where each cell ends */
 } fg__vtk_list;
 
 /* Of polygonal data: vertices, lines, polygons and strips, in the order of the cells'
@@ -291,6 +294,7 @@ typedef struct fg__vtk_grid {
   int axis[3]; /* the file's axes that span it, ascending */
   int flat;    /* in 2D the remaining one, one or two points thick; else -1 */
   size_t points[3];
+  bool descends[3];       /* what is along it comes in the field's order, reversed */
   size_t first_row, rows; /* along the last axis, to be read; all unless changed */
 } fg__vtk_grid;
 
@@ -301,6 +305,13 @@ size_t fg__vtk_grid_points(const fg__vtk_grid *grid);
 
 /* Points of the rows to be read. */
 size_t fg__vtk_grid_wanted(const fg__vtk_grid *grid);
+
+/* Coordinate i along the grid's axis k, ascending. */
+double fg__vtk_grid_coordinate(const fg__vtk_grid *grid, const fg__vtk *vtk, int k,
+                               size_t i);
+
+/* Reverses samples of the rows to be read along the axes that descend. */
+void fg__vtk_grid_reverse(float *samples, const fg__vtk_grid *grid);
 
 /* Brings the components of a vector along the grid's axes onto the wanted rows' points:
  * in 2D a mean over two layers of points; of cells a mean over those round a point (VTK's
