@@ -21,6 +21,10 @@ static const double nearest_pole = 75.0;
 
 static const double longest_step = 1.0, steps_in_frame = 90.0;
 
+/* Whole samples do not fill a map to the pole: what is so near to a side, as a share of
+ * the frame, ends there. */
+static const double side_slack = 0.01;
+
 typedef enum side { SIDE_LEFT, SIDE_RIGHT, SIDE_BOTTOM, SIDE_TOP } side;
 
 /* Lines of one kind: parallels (k = 1) or meridians (k = 0). */
@@ -135,8 +139,8 @@ static void project(const fg__plane *plane, double longitude, double latitude,
   fg__plane_forward(plane, 1, &longitude, &latitude, &at[0], &at[1]);
 }
 
-/* Parallels at the left rim; meridians under the foot, or where that is a point beside
- * the equator. */
+/* Parallels at the left rim; meridians outside the foot, a line or an arc, or where
+ * that is a point beside the equator. */
 static void label_world(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
@@ -152,8 +156,13 @@ static void label_world(fg__graticule *out, const family *f, int n, int line)
   project(plane, plane->west + 1.0, -90.0, feet[0]);
   project(plane, plane->east - 1.0, -90.0, feet[1]);
   if (fabs(feet[1][0] - feet[0][0]) > 0.2 * (plane->high[0] - plane->low[0])) {
+    double beside[2];
     project(plane, position, -90.0, at);
-    add_label(out->label, &out->labels, text, line, at, 0.0, -1.0);
+    project(plane, position + 1.0, -90.0, beside);
+    const double east[2] = {beside[0] - at[0], beside[1] - at[1]};
+    const double length = hypot(east[0], east[1]);
+    add_label(out->label, &out->labels, text, line, at, east[1] / length,
+              -east[0] / length);
     return;
   }
   static const double latitudes[] = {0.0,  -15.0, 15.0,  -45.0, 45.0, -8.0, 8.0,
@@ -285,23 +294,28 @@ static bool has_label(const fg__graticule *out, int line)
   return false;
 }
 
-/* A parallel that ends within the box, at the meridian where the map is cut, has its
- * label at the left side, too. */
-static void label_end(fg__graticule *out, size_t first, const char *text, int line)
+/* Lines that end in the box are labelled, too: a parallel at the left side, for it ends
+ * at the meridian where the map is cut; a meridian that ends at the lower side, at a pole
+ * that is a line, there. */
+static void label_end(fg__graticule *out, size_t first, int k, const char *text, int line)
 {
   const fg__plane *plane = out->plane;
-  const double *west = NULL;
-  for (size_t k = first; k < out->line.count; ++k) {
-    const size_t ends[2] = {out->line.start[k], out->line.start[k + 1] - 1};
+  const int across = 1 - k;
+  double at[2] = {HUGE_VAL, HUGE_VAL};
+  for (size_t part = first; part < out->line.count; ++part) {
+    const size_t ends[2] = {out->line.start[part], out->line.start[part + 1] - 1};
     for (int n = 0; n < 2; ++n) {
       const double *end = out->line.point[ends[n]];
-      if (in_box(plane, end) && (!west || end[0] < west[0]))
-        west = end;
+      if (in_box(plane, end) && end[across] < at[across])
+        memcpy(at, end, sizeof at);
     }
   }
-  if (west)
-    add_label(out->label, &out->labels, text, line,
-              (const double[2]){plane->low[0], west[1]}, -1.0, 0.0);
+  const double above = at[across] - plane->low[across];
+  if (k == 0 && above > side_slack * (plane->high[1] - plane->low[1]))
+    return;
+  at[across] = isfinite(above) ? plane->low[across] : above;
+  add_label(out->label, &out->labels, text, line, at, k == 0 ? 0.0 : -1.0,
+            k == 0 ? -1.0 : 0.0);
 }
 
 /* The first line of the polygons that belongs to each line of the two families. */
@@ -324,15 +338,17 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
         label_crossings(out, where->first[which][n], order[which][k],
                         f[which].ticks.text[n], FG__TICK_LIMIT * which + n);
       }
-  for (int n = 0; n < f[1].ticks.count; ++n) {
-    lines->count = where->first[1][n + 1];
-    if (has_label(out, FG__TICK_LIMIT + n))
-      continue;
-    if (is_closed(out, where->first[1][n]))
-      label_within(out, &f[1], n, FG__TICK_LIMIT + n);
-    else
-      label_end(out, where->first[1][n], f[1].ticks.text[n], FG__TICK_LIMIT + n);
-  }
+  for (int k = 1; k >= 0; --k)
+    for (int n = 0; n < f[k].ticks.count; ++n) {
+      const int line = FG__TICK_LIMIT * k + n;
+      lines->count = where->first[k][n + 1];
+      if (has_label(out, line))
+        continue;
+      if (k == 1 && is_closed(out, where->first[k][n]))
+        label_within(out, &f[k], n, line);
+      else
+        label_end(out, where->first[k][n], k, f[k].ticks.text[n], line);
+    }
   lines->count = all;
 }
 
