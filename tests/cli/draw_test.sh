@@ -95,6 +95,24 @@ refused 2 'are drawn as panels of a picture' placed run -o x.glb
 refused 2 '--region: not with --projection none' placed -o x.svg --projection none --region 0,1,0,1
 done_with "draw: panels that cannot be"
 
+"$program" run "$root/data/gfs_20140131.nc" -o indian --region 40,110,-30,20 --arrows 6 --effort 0 \
+  --formats svg --quiet >/dev/null 2>&1
+# MAP... -- a parallel of the region, and one of the globe
+for map in '--projection robinson' '--center 70' '--projection mercator --region 30,120,-40,30'; do
+  try draw indian -o map.svg $map
+  expect_code 0
+  grep -q '<text.*>20°S</text>' map.svg || fault "$map: no 20°S"
+  grep -q '<text.*>60°N</text>' map.svg && fault "$map: all of the globe"
+done
+try draw indian -o globe.svg --projection robinson --region=-180,180,-90,90
+expect_code 0
+grep -q '<text.*>60°N</text>' globe.svg || fault "not all of the globe"
+try draw indian -o x.svg --projection +proj=moll --center 70
+expect_code 1
+expect_error 'it has a centre of its own'
+grep -q -e --input err && fault "advice about a file"
+done_with "draw: another map shows the run's region"
+
 try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle 'below' --label 'fast' \
   --width 89mm --height 3in --font-size 2.5mm --speed-range 11,13
 expect_code 0
