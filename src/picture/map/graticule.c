@@ -13,11 +13,14 @@ static const double lines_shown = 6.0;
 /* On maps of the world. */
 static const double world_parallels = 30.0, world_meridians = 60.0;
 
-/* On discs. */
+/* On discs, meridians also where else they meet. */
 static const double disc_lines = 4.5, disc_meridians = 30.0;
 
 /* Nearer to a pole meridians are too close to be told apart, degrees of latitude. */
 static const double nearest_pole = 75.0;
+
+/* Or than this share of the latitudes that a box shows. */
+static const double pole_share = 0.03;
 
 static const double longest_step = 1.0, steps_in_frame = 90.0;
 
@@ -50,14 +53,23 @@ static double nice_step(double wanted, bool quarters)
   return best;
 }
 
+/* Whether meridians meet in the frame, in a point. */
+static bool holds_pole(const fg__plane *plane)
+{
+  return (plane->kind == FG__PLANE_AZIMUTHAL ||
+          (plane->kind == FG__PLANE_CUT && !fg__map_is_world(plane->map))) &&
+         fmax(plane->north, -plane->south) > 90.0 - 1e-6;
+}
+
 static double step_of(const fg__plane *plane, int k)
 {
   if (plane->disc)
     return k == 0 ? disc_meridians : nice_step(plane->radius / disc_lines, true);
   if (plane->whole)
     return k == 0 ? world_meridians : world_parallels;
-  return nice_step((k == 0 ? plane->east - plane->west : plane->north - plane->south) /
-                       lines_shown,
+  const double wanted =
+      (k == 0 ? plane->east - plane->west : plane->north - plane->south) / lines_shown;
+  return nice_step(k == 0 && holds_pole(plane) ? fmin(wanted, disc_meridians) : wanted,
                    false);
 }
 
@@ -253,23 +265,35 @@ static side leave_box(const fg__plane *plane, const double in[2], const double o
   return which;
 }
 
-/* Where the lines traced last, from `first` on, cross the box's sides. */
+/* Whether meridians meet so near to a place that it is the middle one's alone. */
+static bool is_others(const fg__plane *plane, const family *f, int n, const double at[2])
+{
+  double longitude, latitude;
+  if (f->k == 1 || fabs(f->ticks.position[n] - plane->center[0]) < 1e-6)
+    return false;
+  fg__plane_inverse(plane, 1, &at[0], &at[1], &longitude, &latitude);
+  const double off = 90.0 - fabs(latitude); /* NaN: at the pole */
+  return holds_pole(plane) && !(off >= pole_share * (plane->north - plane->south));
+}
+
+/* Where the line traced last, the family's n-th, from `first` on, crosses a side of the
+ * box. */
 static void label_crossings(fg__graticule *out, size_t first, side wanted,
-                            const char *text, int line)
+                            const family *f, int n)
 {
   static const double ways[][2] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
   const fg__plane *plane = out->plane;
   for (size_t k = first; k < out->line.count; ++k)
-    for (size_t n = out->line.start[k]; n + 1 < out->line.start[k + 1]; ++n) {
-      const double *a = out->line.point[n], *b = out->line.point[n + 1];
+    for (size_t i = out->line.start[k]; i + 1 < out->line.start[k + 1]; ++i) {
+      const double *a = out->line.point[i], *b = out->line.point[i + 1];
       const bool a_in = in_box(plane, a), b_in = in_box(plane, b);
       double at[2];
       if (a_in == b_in)
         continue;
       const side which = leave_box(plane, a_in ? a : b, a_in ? b : a, at);
-      if (which == wanted)
-        add_label(out->label, &out->labels, text, line, at, ways[which][0],
-                  ways[which][1]);
+      if (which == wanted && !is_others(plane, f, n, at))
+        add_label(out->label, &out->labels, f->ticks.text[n], FG__TICK_LIMIT * f->k + n,
+                  at, ways[which][0], ways[which][1]);
     }
 }
 
@@ -297,25 +321,26 @@ static bool has_label(const fg__graticule *out, int line)
 /* Lines that end in the box are labelled, too: a parallel at the left side, for it ends
  * at the meridian where the map is cut; a meridian that ends at the lower side, at a pole
  * that is a line, there. */
-static void label_end(fg__graticule *out, size_t first, int k, const char *text, int line)
+static void label_end(fg__graticule *out, size_t first, const family *f, int n)
 {
   const fg__plane *plane = out->plane;
-  const int across = 1 - k;
+  const int across = 1 - f->k;
   double at[2] = {HUGE_VAL, HUGE_VAL};
   for (size_t part = first; part < out->line.count; ++part) {
     const size_t ends[2] = {out->line.start[part], out->line.start[part + 1] - 1};
-    for (int n = 0; n < 2; ++n) {
-      const double *end = out->line.point[ends[n]];
+    for (int i = 0; i < 2; ++i) {
+      const double *end = out->line.point[ends[i]];
       if (in_box(plane, end) && end[across] < at[across])
         memcpy(at, end, sizeof at);
     }
   }
   const double above = at[across] - plane->low[across];
-  if (k == 0 && above > side_slack * (plane->high[1] - plane->low[1]))
+  if (f->k == 0 && (above > side_slack * (plane->high[1] - plane->low[1]) ||
+                    is_others(plane, f, n, at)))
     return;
   at[across] = isfinite(above) ? plane->low[across] : above;
-  add_label(out->label, &out->labels, text, line, at, k == 0 ? 0.0 : -1.0,
-            k == 0 ? -1.0 : 0.0);
+  add_label(out->label, &out->labels, f->ticks.text[n], FG__TICK_LIMIT * f->k + n, at,
+            f->k == 0 ? 0.0 : -1.0, f->k == 0 ? -1.0 : 0.0);
 }
 
 /* The first line of the polygons that belongs to each line of the two families. */
@@ -335,8 +360,7 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
     for (int which = 1; which >= 0; --which)
       for (int n = 0; n < f[which].ticks.count; ++n) {
         lines->count = where->first[which][n + 1];
-        label_crossings(out, where->first[which][n], order[which][k],
-                        f[which].ticks.text[n], FG__TICK_LIMIT * which + n);
+        label_crossings(out, where->first[which][n], order[which][k], &f[which], n);
       }
   for (int k = 1; k >= 0; --k)
     for (int n = 0; n < f[k].ticks.count; ++n) {
@@ -347,7 +371,7 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
       if (k == 1 && is_closed(out, where->first[k][n]))
         label_within(out, &f[k], n, line);
       else
-        label_end(out, where->first[k][n], k, f[k].ticks.text[n], line);
+        label_end(out, where->first[k][n], &f[k], n);
     }
   lines->count = all;
 }

@@ -196,6 +196,20 @@ static void meridians_of_cylinders_have_degrees(void **state)
   free(page);
 }
 
+/* Of three that have no room the first and the last stay. */
+static void degrees_of_a_narrow_box_are_its_ends(void **state)
+{
+  static const view andes = {
+      "+proj=tmerc +lon_0=-70 +R=6371000 +units=km", {-560, -6100}, {560, 1100}, false};
+  fg__page *page = calloc(1, sizeof *page);
+  double at[FG__PAGE_TEXTS];
+  assert_non_null(page);
+  lay_out(page, *state, &andes, 300.0);
+  assert_int_equal(longitudes(page, at), 2);
+  assert_true(at[0] == 285.0 && at[1] == 295.0);
+  free(page);
+}
+
 /* Also where the middle ones have more room than the others, for they are shorter. */
 static void degrees_of_a_box_are_even(void **state)
 {
@@ -214,6 +228,37 @@ static void degrees_of_a_box_are_even(void **state)
     most = count > most ? count : most;
   }
   assert_true(least < most && most > 4);
+  free(page);
+}
+
+/* Of small parts of the Earth, and where meridians meet in a point. */
+static void frames_have_lines_enough(void **state)
+{
+  static const view small[] = {
+      /* 30 km wide; from a pole to 80 degrees north */
+      {"+proj=merc +lon_0=0.1 +R=6371000 +units=km", {-15, 6650}, {15, 6690}, false},
+      {"+proj=laea +lon_0=20 +lat_0=90 +R=6371000 +units=km",
+       {-600, -1120},
+       {500, 20},
+       false},
+      /* the poles are in the middle of the sides */
+      {"+proj=laea +lon_0=-60 +R=6371000 +units=km",
+       {-5000, -9000},
+       {5000, 9000},
+       false}};
+  static const int least[] = {3, 2, 1};
+  fg_context *context = *state;
+  fg__page *page = calloc(1, sizeof *page);
+  double at[FG__PAGE_TEXTS];
+  assert_non_null(page);
+  for (size_t n = 0; n < sizeof small / sizeof *small; ++n) {
+    lay_out(page, context, &small[n], 300.0);
+    const int count = longitudes(page, at);
+    if (count < least[n])
+      fail_msg("view %zu: %d longitudes", n, count);
+  }
+  /* where all meridians meet the middle one has the place */
+  assert_true(at[longitudes(page, at) / 2] == 300.0);
   free(page);
 }
 
@@ -254,7 +299,11 @@ int main(void)
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(meridians_of_cylinders_have_degrees, context_set_up,
                                       context_tear_down),
+      cmocka_unit_test_setup_teardown(degrees_of_a_narrow_box_are_its_ends,
+                                      context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(degrees_of_a_box_are_even, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(frames_have_lines_enough, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(degrees_keep_off_the_outline, context_set_up,
                                       context_tear_down),

@@ -119,7 +119,10 @@ static void find_middles(choice families[FAMILIES], const fg__graticule *graticu
       first = line < first ? line : first;
       last = line > last ? line : last;
     }
-    families[f] = (choice){.middle = (first + last + 1) / 2, .stride = 1};
+    /* of three both ends tell more than the middle */
+    const bool are_three = last - first == 2 && !graticule->plane->whole;
+    families[f] =
+        (choice){.middle = are_three ? first : (first + last + 1) / 2, .stride = 1};
   }
 }
 
@@ -150,8 +153,9 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
     }
     if (near >= 0) {
       const bool between_others = family_of[near] == family;
+      const bool at_first_side = label->out[family == 0 ? 1 : 0] < -0.5;
       families[family].crowded =
-          families[family].crowded || plane->whole || between_others;
+          families[family].crowded || plane->whole || (between_others && at_first_side);
       /* a line between two that have theirs at this side needs none at the other */
       done[label->line] = between_others;
       continue;
