@@ -100,7 +100,8 @@ static fg_status write_flat(fg_context *context, const char *path,
                             const draw_settings *settings, const drawn_scale *scale)
 {
   const cli_report *report = &scale->run->report;
-  fg_picture_options options = settings_picture(&settings->picture);
+  const fg_map_options map = drawn_run_map(scale->run, settings);
+  fg_picture_options options = settings_picture(&settings->picture, &map);
   double speeds[2] = {report->speeds[0], report->speeds[1]};
   settings_speeds(speeds, &settings->picture);
   options.speed_min = speeds[0];

@@ -114,7 +114,8 @@ typedef struct rival_files {
 static int write_flat(const rival_files *files, const char *end)
 {
   rival_work *work = files->work;
-  fg_picture_options options = settings_picture(&work->settings->picture);
+  fg_picture_options options =
+      settings_picture(&work->settings->picture, &work->settings->reading.map);
   options.speed_min = work->speeds[0];
   options.speed_max = work->speeds[1];
   double key_width = 0.0;

@@ -222,7 +222,8 @@ static fg_status draw(fg_panel *panel, fg_texture **texture, fg_context *context
                       const drawn_panels *panels, const draw_settings *settings,
                       const char *path)
 {
-  fg_picture_options options = settings_picture(&settings->picture);
+  const fg_map_options map = drawn_run_map(panels->scale[0].run, settings);
+  fg_picture_options options = settings_picture(&settings->picture, &map);
   double speeds[2] = {0.0, 0.0};
   for (int k = 0; k < panels->scales; ++k) {
     const drawn_scale *scale = &panels->scale[k];

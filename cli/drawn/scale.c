@@ -92,6 +92,23 @@ int drawn_check_map(const draw_settings *settings)
   return refuse_given("draw", of_density, 2, "not on another map than the run's");
 }
 
+fg_map_options drawn_run_map(const drawn_run *run, const draw_settings *settings)
+{
+  static const char none[] = "none";
+  const fg_map_options *own = &run->report.map;
+  fg_map_options map = settings->map;
+  if (!is_on_another_map(settings))
+    return *own;
+  if (!map.projection && strcmp(own->projection, none) != 0)
+    map.projection = own->projection;
+  if (!map.has_region && own->has_region &&
+      !(map.projection && strcmp(map.projection, none) == 0)) {
+    map.has_region = true;
+    memcpy(map.region, own->region, sizeof map.region);
+  }
+  return map;
+}
+
 static int read_field(drawn_run *run, fg_context *context, const draw_settings *settings)
 {
   const cli_report *report = &run->report;
@@ -107,8 +124,8 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
       access(report->input_absolute, R_OK) == 0)
     input = report->input_absolute;
   fg_read_options reading = report->reading;
-  if (is_on_another_map(settings))
-    reading.map = &settings->map;
+  const fg_map_options map = drawn_run_map(run, settings);
+  reading.map = &map;
   if (settings->vars_from)
     reading.vars_from = settings->vars_from;
   if (settings->mesh_from)
@@ -129,7 +146,8 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   if (!status)
     return EXIT_DONE;
   int code = complain_of(context, status, run->folder);
-  if (status != FG_STATUS_STOPPED && !*fg_context_hint(context))
+  if (status != FG_STATUS_STOPPED && status != FG_STATUS_ARGUMENT &&
+      !*fg_context_hint(context))
     fputs("Say with --input where the field is now.\n", stderr);
   return code;
 }
@@ -235,7 +253,7 @@ int drawn_scale_read(drawn_scale *scale, fg_context *context,
     code = complain_of(context, status, scale->file ? scale->file : run->folder);
   if (is_on_another_map(settings)) /* the recorded error is of the run's map */
     fg_icons_keep_score(scale->icons, NULL);
-  if (!code && settings->map.has_region)
+  if (!code && is_on_another_map(settings) && drawn_run_map(run, settings).has_region)
     report_headless(scale);
   if (!code)
     code = read_density(scale, context, settings);

@@ -86,9 +86,10 @@ static const option_entry input_entries[] = {
      .help = "draw on another map, as `flowgrain run` has them; arrows keep their lines "
              "on the globe [the run's]"},
     {"center", 0, "LON[,LAT]", COMMAND_DRAW, OPTION_CENTER, OWN(draw, map),
-     .help = "middle of another map, degrees"},
+     .help = "middle of another map, degrees [from what it shows]"},
     {"region", 0, "W,E,S,N", COMMAND_DRAW, OPTION_REGION, OWN(draw, map),
-     .help = "part of the globe that another map shows, degrees"},
+     .help = "part of the globe that another map shows, degrees; all of it is "
+             "-180,180,-90,90 [the run's]"},
 };
 const option_family input_options = {"Input", input_entries,
                                      sizeof input_entries / sizeof *input_entries};

@@ -121,7 +121,8 @@ fg_texture_style settings_texture_style(const texture_settings *settings,
   };
 }
 
-fg_picture_options settings_picture(const picture_settings *settings)
+fg_picture_options settings_picture(const picture_settings *settings,
+                                    const fg_map_options *map)
 {
   return (fg_picture_options){
       .width = settings->width,
@@ -138,6 +139,7 @@ fg_picture_options settings_picture(const picture_settings *settings)
       .no_keys = settings->no_keys,
       .outline_text = settings->outline_text,
       .no_frame = settings->no_frame,
+      .whole = map->has_region,
       .transparent = settings->transparent,
       .tint = settings->tint,
       .skeletons = settings->skeletons,

@@ -214,7 +214,9 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
 fg_placement_options settings_placement(const run_settings *settings);
 fg_run_options settings_run(const run_settings *settings);
 fg_texture_options settings_texture(const texture_settings *settings);
-fg_picture_options settings_picture(const picture_settings *settings);
+/* map: of the field; its region is shown whole. */
+fg_picture_options settings_picture(const picture_settings *settings,
+                                    const fg_map_options *map);
 fg_texture_style settings_texture_style(const texture_settings *settings,
                                         const fg_texture *texture);
 

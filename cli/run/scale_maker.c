@@ -119,7 +119,8 @@ static fg_status write_pictures(scale_maker *maker, int index,
   unsigned formats = formats_to_draw(maker->settings->formats, false);
   if (!formats)
     return FG_STATUS_OK;
-  fg_picture_options options = settings_picture(&maker->settings->picture);
+  fg_picture_options options =
+      settings_picture(&maker->settings->picture, &maker->settings->reading.map);
   options.speed_min = maker->look.speeds[0];
   options.speed_max = maker->look.speeds[1];
   if (!settings_place(maker->settings))

@@ -18,6 +18,8 @@ typedef struct fg_picture_options {
   const char *palette; /* name of a colour map, or "#rrggbb" for one colour ["gale"] */
   double speed_min, speed_max;         /* ends of the colour key; equal: from the icons */
   bool no_frame;                       /* only mask and arrows */
+  bool whole;                          /* all of the field's box [without what lies far
+                                          outside of its values, of much of that] */
   bool transparent;                    /* no background */
   bool tint;                           /* tint the clusters (density needed) */
   const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */

@@ -110,7 +110,8 @@ static double reach_of(const fg__map *map, bool is_region)
 }
 
 /* Whether the image of a short line has a gap: halves of it, ever shorter, have images
- * ever nearer to each other, or do not. */
+ * ever nearer to each other, or do not. Lengths at a gap, by differences across it, say
+ * nothing of what is shown there. */
 static bool has_gap(const fg__map *map, double reach, const double from[2],
                     const double to[2])
 {
@@ -125,7 +126,8 @@ static bool has_gap(const fg__map *map, double reach, const double from[2],
     return false;
   for (int k = 0; k < HALVINGS && left > 0.25 * first; ++k) {
     const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    if (!find_image(image[2], map, reach, middle[0], middle[1]))
+    fg__map_forward(map, 1, &middle[0], &middle[1], &image[2][0], &image[2][1]);
+    if (!isfinite(image[2][0]) || !isfinite(image[2][1]))
       return false;
     const double before = hypot(image[2][0] - image[0][0], image[2][1] - image[0][1]);
     const double after = hypot(image[1][0] - image[2][0], image[1][1] - image[2][1]);

@@ -326,14 +326,14 @@ static void regions_are_rectangles_or_round(void **state)
   fg_field_destroy(field);
 }
 
-/* A whole globe would be torn along meridians of its own; a lobe is whole, and so is a
+/* A whole globe would be torn along lines of its own; a lobe is whole, and so is a
  * globe whose one cut is opposite the centre, wherever that is. */
 static void interrupted_planes_are_for_regions(void **state)
 {
   (void)state;
-  static const char *const torn[] = {"+proj=igh", "+proj=imoll", "+proj=healpix",
-                                     "+proj=tcea",
-                                     "+proj=ob_tran +o_proj=moll +o_lat_p=45"};
+  static const char *const torn[] = {
+      "+proj=igh",  "+proj=imoll", "+proj=healpix",
+      "+proj=tcea", "tmerc",       "+proj=ob_tran +o_proj=moll +o_lat_p=45"};
   static const char *const whole[] = {
       "+proj=goode", "+proj=moll +lon_0=77",  "eqearth",    "+proj=hammer +lon_0=-120",
       "robinson",    "+proj=bonne +lat_1=40", "+proj=poly", "polar"};

@@ -95,6 +95,43 @@ refused 2 'are drawn as panels of a picture' placed run -o x.glb
 refused 2 '--region: not with --projection none' placed -o x.svg --projection none --region 0,1,0,1
 done_with "draw: panels that cannot be"
 
+"$program" run "$root/data/gfs_20140131.nc" -o indian --region 40,110,-30,20 --arrows 6 --effort 0 \
+  --formats svg --quiet >/dev/null 2>&1
+# MAP... -- a parallel of the region, and one of the globe
+for map in '--projection robinson' '--center 70' '--projection mercator --region 30,120,-40,30'; do
+  try draw indian -o map.svg $map
+  expect_code 0
+  grep -q '<text.*>20°S</text>' map.svg || fault "$map: no 20°S"
+  grep -q '<text.*>60°N</text>' map.svg && fault "$map: all of the globe"
+done
+try draw indian -o globe.svg --projection robinson --region=-180,180,-90,90
+expect_code 0
+grep -q '<text.*>60°N</text>' globe.svg || fault "not all of the globe"
+try draw indian -o x.svg --projection +proj=moll --center 70
+expect_code 1
+expect_error 'it has a centre of its own'
+grep -q -e --input err && fault "advice about a file"
+done_with "draw: another map shows the run's region"
+
+# data from 0 to 22 E, 30 to 48 N
+write_netcdf '@dims = (["lat", 10], ["lon", 12]); my @n = (0 .. 119);
+  @vars = (["lat", [0], 6, ["units", "degrees_north"], [map { 30 + 2 * $_ } 0 .. 9]],
+           ["lon", [1], 6, ["units", "degrees_east"], [map { 2 * $_ } 0 .. 11]],
+           ["u", [0, 1], 6, ["units", "m/s"], [map { 5 + $_ / 50 } @n]],
+           ["v", [0, 1], 6, ["units", "m/s"], [map { sin($_ / 12) } @n]]);' >part.nc
+"$program" run part.nc -o part --region=-30,50,10,70 --arrows 4 --effort 0 --formats svg --quiet >/dev/null 2>&1
+"$program" run part.nc -o data --arrows 4 --effort 0 --formats svg --quiet >/dev/null 2>&1
+try draw part -o part.svg --projection mercator
+expect_code 0
+try draw data -o data.svg --region=-30,50,10,70
+expect_code 0
+for picture in part/scale-00.svg part.svg data.svg; do
+  grep -q '<text.*>20°N</text>' $picture || fault "$picture: no 20°N, which is in the region"
+done
+try draw data -o data.svg --projection mercator
+grep -q '<text.*>20°N</text>' data.svg && fault "without a region: 20°N, where there are no data"
+done_with "draw and run: a region is shown whole, whatever part of it has data"
+
 try draw placed -o texts.svg --title 'A <title> of {arrows} & {time}' --subtitle 'below' --label 'fast' \
   --width 89mm --height 3in --font-size 2.5mm --speed-range 11,13
 expect_code 0

@@ -13,13 +13,20 @@ static const double lines_shown = 6.0;
 /* On maps of the world. */
 static const double world_parallels = 30.0, world_meridians = 60.0;
 
-/* On discs. */
+/* On discs, meridians also where else they meet. */
 static const double disc_lines = 4.5, disc_meridians = 30.0;
 
 /* Nearer to a pole meridians are too close to be told apart, degrees of latitude. */
 static const double nearest_pole = 75.0;
 
+/* Or than this share of the latitudes that a box shows. */
+static const double pole_share = 0.03;
+
 static const double longest_step = 1.0, steps_in_frame = 90.0;
+
+/* Whole samples do not fill a map to the pole: what is so near to a side, as a share of
+ * the frame, ends there. */
+static const double side_slack = 0.01;
 
 typedef enum side { SIDE_LEFT, SIDE_RIGHT, SIDE_BOTTOM, SIDE_TOP } side;
 
@@ -46,14 +53,23 @@ static double nice_step(double wanted, bool quarters)
   return best;
 }
 
+/* Whether meridians meet in the frame, in a point. */
+static bool holds_pole(const fg__plane *plane)
+{
+  return (plane->kind == FG__PLANE_AZIMUTHAL ||
+          (plane->kind == FG__PLANE_CUT && !fg__map_is_world(plane->map))) &&
+         fmax(plane->north, -plane->south) > 90.0 - 1e-6;
+}
+
 static double step_of(const fg__plane *plane, int k)
 {
   if (plane->disc)
     return k == 0 ? disc_meridians : nice_step(plane->radius / disc_lines, true);
   if (plane->whole)
     return k == 0 ? world_meridians : world_parallels;
-  return nice_step((k == 0 ? plane->east - plane->west : plane->north - plane->south) /
-                       lines_shown,
+  const double wanted =
+      (k == 0 ? plane->east - plane->west : plane->north - plane->south) / lines_shown;
+  return nice_step(k == 0 && holds_pole(plane) ? fmin(wanted, disc_meridians) : wanted,
                    false);
 }
 
@@ -135,8 +151,8 @@ static void project(const fg__plane *plane, double longitude, double latitude,
   fg__plane_forward(plane, 1, &longitude, &latitude, &at[0], &at[1]);
 }
 
-/* Parallels at the left rim; meridians under the foot, or where that is a point beside
- * the equator. */
+/* Parallels at the left rim; meridians outside the foot, a line or an arc, or where
+ * that is a point beside the equator. */
 static void label_world(fg__graticule *out, const family *f, int n, int line)
 {
   const fg__plane *plane = out->plane;
@@ -152,8 +168,13 @@ static void label_world(fg__graticule *out, const family *f, int n, int line)
   project(plane, plane->west + 1.0, -90.0, feet[0]);
   project(plane, plane->east - 1.0, -90.0, feet[1]);
   if (fabs(feet[1][0] - feet[0][0]) > 0.2 * (plane->high[0] - plane->low[0])) {
+    double beside[2];
     project(plane, position, -90.0, at);
-    add_label(out->label, &out->labels, text, line, at, 0.0, -1.0);
+    project(plane, position + 1.0, -90.0, beside);
+    const double east[2] = {beside[0] - at[0], beside[1] - at[1]};
+    const double length = hypot(east[0], east[1]);
+    add_label(out->label, &out->labels, text, line, at, east[1] / length,
+              -east[0] / length);
     return;
   }
   static const double latitudes[] = {0.0,  -15.0, 15.0,  -45.0, 45.0, -8.0, 8.0,
@@ -244,23 +265,35 @@ static side leave_box(const fg__plane *plane, const double in[2], const double o
   return which;
 }
 
-/* Where the lines traced last, from `first` on, cross the box's sides. */
+/* Whether meridians meet so near to a place that it is the middle one's alone. */
+static bool is_others(const fg__plane *plane, const family *f, int n, const double at[2])
+{
+  double longitude, latitude;
+  if (f->k == 1 || fabs(f->ticks.position[n] - plane->center[0]) < 1e-6)
+    return false;
+  fg__plane_inverse(plane, 1, &at[0], &at[1], &longitude, &latitude);
+  const double off = 90.0 - fabs(latitude); /* NaN: at the pole */
+  return holds_pole(plane) && !(off >= pole_share * (plane->north - plane->south));
+}
+
+/* Where the line traced last, the family's n-th, from `first` on, crosses a side of the
+ * box. */
 static void label_crossings(fg__graticule *out, size_t first, side wanted,
-                            const char *text, int line)
+                            const family *f, int n)
 {
   static const double ways[][2] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
   const fg__plane *plane = out->plane;
   for (size_t k = first; k < out->line.count; ++k)
-    for (size_t n = out->line.start[k]; n + 1 < out->line.start[k + 1]; ++n) {
-      const double *a = out->line.point[n], *b = out->line.point[n + 1];
+    for (size_t i = out->line.start[k]; i + 1 < out->line.start[k + 1]; ++i) {
+      const double *a = out->line.point[i], *b = out->line.point[i + 1];
       const bool a_in = in_box(plane, a), b_in = in_box(plane, b);
       double at[2];
       if (a_in == b_in)
         continue;
       const side which = leave_box(plane, a_in ? a : b, a_in ? b : a, at);
-      if (which == wanted)
-        add_label(out->label, &out->labels, text, line, at, ways[which][0],
-                  ways[which][1]);
+      if (which == wanted && !is_others(plane, f, n, at))
+        add_label(out->label, &out->labels, f->ticks.text[n], FG__TICK_LIMIT * f->k + n,
+                  at, ways[which][0], ways[which][1]);
     }
 }
 
@@ -285,23 +318,29 @@ static bool has_label(const fg__graticule *out, int line)
   return false;
 }
 
-/* A parallel that ends within the box, at the meridian where the map is cut, has its
- * label at the left side, too. */
-static void label_end(fg__graticule *out, size_t first, const char *text, int line)
+/* Lines that end in the box are labelled, too: a parallel at the left side, for it ends
+ * at the meridian where the map is cut; a meridian that ends at the lower side, at a pole
+ * that is a line, there. */
+static void label_end(fg__graticule *out, size_t first, const family *f, int n)
 {
   const fg__plane *plane = out->plane;
-  const double *west = NULL;
-  for (size_t k = first; k < out->line.count; ++k) {
-    const size_t ends[2] = {out->line.start[k], out->line.start[k + 1] - 1};
-    for (int n = 0; n < 2; ++n) {
-      const double *end = out->line.point[ends[n]];
-      if (in_box(plane, end) && (!west || end[0] < west[0]))
-        west = end;
+  const int across = 1 - f->k;
+  double at[2] = {HUGE_VAL, HUGE_VAL};
+  for (size_t part = first; part < out->line.count; ++part) {
+    const size_t ends[2] = {out->line.start[part], out->line.start[part + 1] - 1};
+    for (int i = 0; i < 2; ++i) {
+      const double *end = out->line.point[ends[i]];
+      if (in_box(plane, end) && end[across] < at[across])
+        memcpy(at, end, sizeof at);
     }
   }
-  if (west)
-    add_label(out->label, &out->labels, text, line,
-              (const double[2]){plane->low[0], west[1]}, -1.0, 0.0);
+  const double above = at[across] - plane->low[across];
+  if (f->k == 0 && (above > side_slack * (plane->high[1] - plane->low[1]) ||
+                    is_others(plane, f, n, at)))
+    return;
+  at[across] = isfinite(above) ? plane->low[across] : above;
+  add_label(out->label, &out->labels, f->ticks.text[n], FG__TICK_LIMIT * f->k + n, at,
+            f->k == 0 ? 0.0 : -1.0, f->k == 0 ? -1.0 : 0.0);
 }
 
 /* The first line of the polygons that belongs to each line of the two families. */
@@ -321,18 +360,19 @@ static void label_box(fg__graticule *out, const family *f, const places *where)
     for (int which = 1; which >= 0; --which)
       for (int n = 0; n < f[which].ticks.count; ++n) {
         lines->count = where->first[which][n + 1];
-        label_crossings(out, where->first[which][n], order[which][k],
-                        f[which].ticks.text[n], FG__TICK_LIMIT * which + n);
+        label_crossings(out, where->first[which][n], order[which][k], &f[which], n);
       }
-  for (int n = 0; n < f[1].ticks.count; ++n) {
-    lines->count = where->first[1][n + 1];
-    if (has_label(out, FG__TICK_LIMIT + n))
-      continue;
-    if (is_closed(out, where->first[1][n]))
-      label_within(out, &f[1], n, FG__TICK_LIMIT + n);
-    else
-      label_end(out, where->first[1][n], f[1].ticks.text[n], FG__TICK_LIMIT + n);
-  }
+  for (int k = 1; k >= 0; --k)
+    for (int n = 0; n < f[k].ticks.count; ++n) {
+      const int line = FG__TICK_LIMIT * k + n;
+      lines->count = where->first[k][n + 1];
+      if (has_label(out, line))
+        continue;
+      if (k == 1 && is_closed(out, where->first[k][n]))
+        label_within(out, &f[k], n, line);
+      else
+        label_end(out, where->first[k][n], &f[k], n);
+    }
   lines->count = all;
 }
 

@@ -9,8 +9,9 @@
  * degree, and many in a frame. */
 static const double longest_step = 1.0, steps_in_frame = 60.0;
 
-/* Edges so near to the antimeridian are the data's own cut. */
-static const double cut_slack = 0.02;
+/* Edges so near to the antimeridian are the data's own cut: half a unit of their
+ * numbers. */
+static const double cut_slack = 0.001;
 
 static fg__coast_part part_of(const fg__coast_lines *lines, size_t k, bool closed)
 {

@@ -129,6 +129,53 @@ static void coasts_do_not_cross_the_map(void **state)
   }
 }
 
+static double distance_to(const fg__polygons *lines, const double at[2])
+{
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < lines->count; ++k)
+    for (size_t n = lines->start[k]; n + 1 < lines->start[k + 1]; ++n) {
+      const double *a = lines->point[n], *b = lines->point[n + 1];
+      const double d[2] = {b[0] - a[0], b[1] - a[1]};
+      const double share = fmin(fmax(((at[0] - a[0]) * d[0] + (at[1] - a[1]) * d[1]) /
+                                         (d[0] * d[0] + d[1] * d[1]),
+                                     0.0),
+                                1.0);
+      least =
+          fmin(least, hypot(a[0] + share * d[0] - at[0], a[1] + share * d[1] - at[1]));
+    }
+  return least;
+}
+
+/* All round an island on the antimeridian, but for the edge at which the data cut it. */
+static void coasts_go_on_at_the_antimeridian(void **state)
+{
+  static const view fiji = {
+      "+proj=merc +lon_0=180 +R=6371000 +units=km", {-40, -1910}, {40, -1840}, false};
+  fg__plane plane;
+  fg__polygons land = {0}, lines = {0};
+  int edges = 0;
+  make_plane(&plane, *state, &fiji);
+  assert_int_equal(
+      fg__land_trace(&land, &lines, *state, &plane, FG__COAST_LAND, FG__COAST_10M),
+      FG_STATUS_OK);
+  for (size_t k = 0; k < land.count; ++k)
+    for (size_t n = land.start[k]; n < land.start[k + 1]; ++n) {
+      const size_t next = n + 1 < land.start[k + 1] ? n + 1 : land.start[k];
+      const double *a = land.point[n], *b = land.point[next];
+      const double middle[2] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+      /* near the antimeridian, x = 0, but not along it, nor where the frame ends */
+      if (fabs(middle[0]) > 3.0 || fabs(middle[0]) < 0.01 || middle[1] < fiji.low[1] ||
+          middle[1] > fiji.high[1])
+        continue;
+      ++edges;
+      assert_true(distance_to(&lines, middle) < 0.01);
+    }
+  assert_true(edges > 10);
+  fg__polygons_clear(&land);
+  fg__polygons_clear(&lines);
+  fg__plane_clear(&plane);
+}
+
 /* What a label says of where it stands: degrees, north and east positive. */
 static bool read_degrees(const fg__map_label *label, double *value, bool *is_latitude)
 {
@@ -399,6 +446,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(land_is_where_it_is),
       TEST(coasts_do_not_cross_the_map),
+      TEST(coasts_go_on_at_the_antimeridian),
       TEST(labels_say_where_lines_end),
       TEST(no_two_labels_touch),
       TEST(a_band_round_the_globe_has_its_own_frame),

@@ -58,8 +58,9 @@ static fg__page_box box_of(const fg__page *page, const fg__plane *plane, anchor 
   const double em = page->font_size;
   if (plane->whole && !plane->disc && a.out[0] < -0.5)
     a.x = rim_left_of(page, plane, &a);
-  const double x = a.x + a.out[0] * (label_gap * em + 0.5 * a.width);
-  const double y = a.y - a.out[1] * (label_gap + 0.5 * digit) * em;
+  const double away =
+      label_gap * em + 0.5 * fabs(a.out[0]) * a.width + 0.5 * fabs(a.out[1]) * digit * em;
+  const double x = a.x + away * a.out[0], y = a.y - away * a.out[1];
   const double half[2] = {0.5 * a.width, half_digit * em};
   return (fg__page_box){x - half[0], y - half[1], x + half[0], y + half[1]};
 }
@@ -118,7 +119,10 @@ static void find_middles(choice families[FAMILIES], const fg__graticule *graticu
       first = line < first ? line : first;
       last = line > last ? line : last;
     }
-    families[f] = (choice){.middle = (first + last) / 2, .stride = 1};
+    /* of three both ends tell more than the middle */
+    const bool are_three = last - first == 2 && !graticule->plane->whole;
+    families[f] =
+        (choice){.middle = are_three ? first : (first + last + 1) / 2, .stride = 1};
   }
 }
 
@@ -148,9 +152,12 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
       continue;
     }
     if (near >= 0) {
-      families[family].crowded = true;
+      const bool between_others = family_of[near] == family;
+      const bool at_first_side = label->out[family == 0 ? 1 : 0] < -0.5;
+      families[family].crowded =
+          families[family].crowded || plane->whole || (between_others && at_first_side);
       /* a line between two that have theirs at this side needs none at the other */
-      done[label->line] = family_of[near] == family;
+      done[label->line] = between_others;
       continue;
     }
     done[label->line] = true;
@@ -178,8 +185,8 @@ void fg__page_place_graticule(fg__page *page, fg__margins *room,
   for (;;) {
     bool again = false;
     place_labels(page, room, plan, parts, families, ruler);
-    /* of the world every second degree is read more easily than those that have room */
-    for (int f = 0; f < FAMILIES && plan->graticule->plane->whole; ++f) {
+    /* every second degree is read more easily than those that have room */
+    for (int f = 0; f < FAMILIES; ++f) {
       again = again || (families[f].crowded && families[f].stride < MOST_STRIDE);
       families[f].stride += families[f].crowded && families[f].stride < MOST_STRIDE;
       families[f].crowded = false;

@@ -11,7 +11,8 @@
 /* The frame is sampled at so many places a side to find what of the Earth it shows. */
 enum { SAMPLES = 49, OUTLINE = 360 };
 
-/* What is found so is wider by this share of it, and by so many degrees. */
+/* What is found so is wider by this share of it, and again, by so many degrees at most.
+ */
 static const double margin_share = 0.04, margin_degrees = 0.5;
 
 /* Farther from the centre than this, azimuthal maps of the world are stretched to
@@ -92,7 +93,8 @@ static double farthest_image(const fg__plane *plane)
 
 static void widen(double *low, double *high, double least, double most)
 {
-  const double more = margin_share * (*high - *low) + margin_degrees;
+  const double share = margin_share * (*high - *low);
+  const double more = share + fmin(share, margin_degrees);
   *low = fmax(*low - more, least);
   *high = fmin(*high + more, most);
 }

@@ -55,8 +55,17 @@ static const view degrees = {NULL, {21.0, -89.0}, {379.0, 89.0}, false};
 static const view tropics = {
     "+proj=eqearth +R=6371000 +units=km", {-17300, -3500}, {17300, 3500}, false};
 
-static const view *const views[] = {&world,   &pacific, &south,  &north,   &atlantic,
-                                    &oblique, &globe,   &sahara, &degrees, &tropics};
+/* a box whose lower side is the pole, but for half a sample */
+static const view plate = {
+    "+proj=eqc +R=6371000 +units=km", {-20016, -10030}, {20016, 10030}, false};
+/* the pole is an arc */
+static const view cone = {"+proj=aea +lat_1=29.5 +lat_2=45.5 +R=6371000 +units=km",
+                          {-16899, -4614},
+                          {16899, 17650},
+                          false};
+static const view *const views[] = {&world,    &pacific, &south, &north,
+                                    &atlantic, &oblique, &globe, &sahara,
+                                    &degrees,  &tropics, &plate, &cone};
 enum { VIEWS = sizeof views / sizeof *views };
 
 static inline fg_field *make_field(fg_context *context, const view *v,

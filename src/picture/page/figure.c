@@ -185,7 +185,7 @@ static fg_status plan_figure(fg__figure *out, fg_context *context, bool several,
   plan->height = options->height;
   plan->font_size = options->font_size;
   plan->no_frame = options->no_frame;
-  find_shown(out, options->no_frame);
+  find_shown(out, options->no_frame || options->whole);
   fg_status status = plan_map(out, context);
   if (!status)
     status = find_icons(out, context);
