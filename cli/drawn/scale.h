@@ -25,8 +25,8 @@ typedef struct drawn_scale {
 int drawn_run_open(drawn_run *out, const char *folder);
 void drawn_run_close(drawn_run *run);
 
-/* The map that is drawn on. What is not said of another than the run's is as in the run,
- * but for the middle, which follows from what is shown. */
+/* The map that is drawn on. What is not given for another than the run's is as in the
+ * run, but for the middle, which follows from what is shown. */
 fg_map_options drawn_run_map(const drawn_run *run, const draw_settings *settings);
 
 /* The index of the scale that the options choose, with at most `arrows` or `clusters`

@@ -20,7 +20,7 @@ void fg__polar_turn_all(float *const vector[2], size_t count, const fg__polar *p
 /* What a speed and its direction are, and which rule says so. */
 void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char *rule);
 
-/* The sense of a direction by its name and what more is said of it ("": nothing): by the
+/* The sense of a direction by its name and its description ("": nothing): by the
  * words "from" and "to"; else wind is named after the place from where it comes. */
 int fg__polar_sense(const char *name, const char *more);
 
