@@ -156,7 +156,7 @@ static void scattered_gaps_are_no_hole(void **state)
   static float u[NX * NY];
   example *e = *state;
   fg_field_arrays arrays = *fg_field_contents(e->field);
-  int gap = -1;
+  int gap = 0;
   for (int n = 0; n < NX * NY; ++n) {
     const bool missing = (uint32_t)((uint32_t)n * UINT32_C(2654435761)) >> 29 == 0;
     u[n] = missing ? NAN : arrays.velocity[0][n];

@@ -231,7 +231,9 @@ static bool look(solid_picture *p, fg__pane *all, const fg_field_arrays *field,
   fg__pane box, written = {0}; /* written: how far it reaches out of the box */
   bool bare[3] = {named, named, named};
   for (int turn = 0; turn < (detail == NUMBERS ? TURNS : 3 * TURNS); ++turn) {
-    fg__pane pane = room, least = detail == NUMBERS ? (fg__pane){0} : written;
+    fg__pane pane = room, least = {0};
+    if (detail != NUMBERS)
+      least = written;
     shrink(&pane.x0, &pane.x1, written.x0, written.x1);
     shrink(&pane.y0, &pane.y1, written.y0, written.y1);
     fg__camera_look(&r->camera, &r->view_box, p->azimuth, p->elevation, &pane);

@@ -201,7 +201,7 @@ static fg_status read_cells(fg__vtk *vtk, const xmlNode *node, const char *name,
     for (size_t i = first; i < vtk->array_count; ++i)
       if (strcmp(vtk->arrays[i].name, names[k]) == 0 && vtk->arrays[i].components == 1)
         *found[k] = i;
-    if (*found[k] == FG__VTK_NONE && k < NEEDED)
+    if (k < NEEDED && *found[k] == FG__VTK_NONE)
       status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                         "%s: line %ld: a piece's cells without array \"%s\"", vtk->path,
                         xmlGetLineNo(node), names[k]);
