@@ -23,8 +23,8 @@ enum { FG__BOX_TEXTS = 3 * (FG__TICK_LIMIT + 1) };
 typedef struct fg__box_axes {
   fg__tick_axis axis[3];
   fg__ticks ticks[3];
-  int edge[3][3]; /* of axis k: the sides, -1 or 1, of the two others on which the edge
-                     with the numbers lies; [k][k]: 0 when it is seen too short for any */
+  int edge[3][3];   /* of axis k: the sides, -1 or 1, of the two others on which the edge
+                       with the numbers lies; [k][k]: 0 when it is seen too short for any */
   double length[3]; /* of that edge, pixels */
   double em;        /* font size, pixels */
   fg__box_text text[FG__BOX_TEXTS];
@@ -36,7 +36,8 @@ void fg__box_axes_of(fg__box_axes *out, const fg_field_arrays *field,
                      const fg__view_box *view_box, const fg__camera *camera, double em,
                      cairo_t *ruler);
 
-/* Leaves an axis its name alone, for which an edge too short for numbers may have room. */
+/* Leaves an axis its name alone, for which an edge too short for numbers may have room.
+ */
 void fg__box_axes_bare(fg__box_axes *axes, const fg_field_arrays *field, int axis);
 
 /* Chooses where the numbers and names go: one that would touch another stands farther off
