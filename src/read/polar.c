@@ -44,7 +44,7 @@ static bool contains(const char *text, const char *word)
   return false;
 }
 
-/* Whether a name has "to" between other letters, as wind_to_direction. */
+/* Whether "to" is one of a name's words, as in wind_to_direction. */
 static bool has_to(const char *name)
 {
   for (const char *at = name; *at; ++at)

@@ -335,21 +335,25 @@ static fg_status map_domain(fg__place_domain *out, fg_context *context,
   return status;
 }
 
-/* The share of a domain without gaps where only gaps are too near for lines. */
+/* The share of a domain without gaps, a plane, where only gaps are too near for lines.
+ * The given domain's box may be smaller. */
 static double taken_share(const fg__place_domain *given, const fg__place_domain *filled)
 {
-  const size_t cells = map_count(filled);
   const double near = TOO_NEAR * sqrt(filled->whole);
-  size_t all = 0, taken = 0;
-  for (size_t n = 0; n < cells; ++n) {
-    all += filled->subdomain[n] != 0;
-    taken += (double)given->clearance[n] < near && (double)filled->clearance[n] >= near;
-  }
+  size_t cell = 0, all = 0, taken = 0;
+  for (int y = 0; y < filled->cells[1]; ++y)
+    for (int x = 0; x < filled->cells[0]; ++x, ++cell) {
+      double center[3];
+      cell_center(filled, (const int[3]){x, y, 0}, center);
+      all += filled->subdomain[cell] != 0;
+      taken += (double)filled->clearance[cell] >= near &&
+               fg__place_clearance(given, center) < near;
+    }
   return (double)taken / (double)all;
 }
 
-/* Whether gaps may take much: about half of what they take is near to them. */
-static bool is_narrow(const fg__place_domain *domain)
+/* Whether gaps may take much: then about half as much of the domain is near to walls. */
+static bool may_have_gaps(const fg__place_domain *domain)
 {
   const size_t cells = map_count(domain);
   const double near = TOO_NEAR * sqrt(box_measure(domain));
@@ -367,7 +371,7 @@ static fg_status fill_gaps(fg__place_domain *domain, fg_context *context)
   fg__place_domain filled = {0};
   fg_field *field = NULL;
   fg_status status =
-      is_narrow(domain) ? fg__place_fill_gaps(&field, context, domain) : FG_STATUS_OK;
+      may_have_gaps(domain) ? fg__place_fill_gaps(&field, context, domain) : FG_STATUS_OK;
   if (status != FG_STATUS_OK || !field)
     return status;
   status = map_domain(&filled, context, field);

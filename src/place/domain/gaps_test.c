@@ -39,6 +39,15 @@ static void swath(const double position[3], double v[3])
   scattered(position, v, 3);
 }
 
+/* On the right two samples of five, of which no four are a cell. */
+static void sparse(const double position[3], double v[3])
+{
+  const int place = (int)(position[0] + 0.5) + 2 * (int)(position[1] + 0.5);
+  scattered(position, v, 12);
+  if (position[0] > 40.5)
+    v[0] = place % 5 == 0 || place % 5 == 2 ? cos(position[1] / 25.0) : (double)NAN;
+}
+
 /* Thin plates, and currents to and fro between them. */
 static void plates(const double position[3], double v[3])
 {
@@ -110,6 +119,19 @@ static void scattered_gaps_are_filled(void **state)
   fg_field_destroy(field);
 }
 
+/* Lines go also where only the filled field has cells. */
+static void filled_cells_may_widen_the_box(void **state)
+{
+  fg_field *field = field_of(*state, &GRID, sparse);
+  fg__place_domain domain = domain_of(*state, field);
+  assert_non_null(domain.filled);
+  assert_true(domain.high[0] > 119.0);
+  assert_non_null(fg__place_subdomain_at(&domain, (const double[3]){90.5, 40.5}));
+  assert_int_equal(domain.subdomain_count, 1);
+  fg__place_domain_clear(&domain);
+  fg_field_destroy(field);
+}
+
 static void few_holes_and_straight_ones_are_walls(void **state)
 {
   static const velocity_of of[] = {wave, islands, plates};
@@ -143,6 +165,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       CASE(scattered_gaps_are_filled),
+      CASE(filled_cells_may_widen_the_box),
       CASE(few_holes_and_straight_ones_are_walls),
       CASE(gaps_cost_little_error),
   };
