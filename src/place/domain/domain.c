@@ -343,7 +343,7 @@ static double taken_share(const fg__place_domain *given, const fg__place_domain 
   size_t cell = 0, all = 0, taken = 0;
   for (int y = 0; y < filled->cells[1]; ++y)
     for (int x = 0; x < filled->cells[0]; ++x, ++cell) {
-      double center[3];
+      double center[3] = {0};
       cell_center(filled, (const int[3]){x, y, 0}, center);
       all += filled->subdomain[cell] != 0;
       taken += (double)filled->clearance[cell] >= near &&
