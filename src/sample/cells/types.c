@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "sample/cells/set.h"
 
-enum { MOST_NODES = 27, MOST_MIDDLES = 7, MOST_PARTS = 10 };
+enum { MOST_NODES = 27, MOST_MIDDLES = 7, MOST_PARTS = 10, LAGRANGE_HEXAHEDRON = 72 };
 
 typedef struct part {
   fg__cell_shape shape;
@@ -125,12 +125,18 @@ static const cell_type TYPES[] = {
     {37, "triquadratic pyramid", 0, 0, NULL, 0, NULL},
     {41, "convex point set", 0, 0, NULL, 0, NULL},
     {42, "polyhedron", 0, 0, NULL, 0, NULL},
-    {69, "Lagrange triangle", 0, 0, NULL, 0, NULL},
-    {70, "Lagrange quadrilateral", 0, 0, NULL, 0, NULL},
-    {71, "Lagrange tetrahedron", 0, 0, NULL, 0, NULL},
-    {72, "Lagrange hexahedron", 0, 0, NULL, 0, NULL},
-    {73, "Lagrange wedge", 0, 0, NULL, 0, NULL},
-    {74, "Lagrange pyramid", 0, 0, NULL, 0, NULL},
+    /* of orders 1 and 2, whose nodes are those of linear and quadratic cells */
+    {69, "Lagrange triangle", 3, PARTS(TRIANGLE), 0, NULL},
+    {69, "Lagrange triangle", 6, PARTS(TRIANGLE_6), 0, NULL},
+    {70, "Lagrange quadrilateral", 4, PARTS(QUAD), 0, NULL},
+    {70, "Lagrange quadrilateral", 9, PARTS(QUAD_9), 0, NULL},
+    {71, "Lagrange tetrahedron", 4, PARTS(TETRAHEDRON), 0, NULL},
+    {71, "Lagrange tetrahedron", 10, PARTS(TETRAHEDRON_10), 0, NULL},
+    {LAGRANGE_HEXAHEDRON, "Lagrange hexahedron", 8, PARTS(HEXAHEDRON), 0, NULL},
+    {LAGRANGE_HEXAHEDRON, "Lagrange hexahedron", 27, PARTS(HEXAHEDRON_27), 0, NULL},
+    {73, "Lagrange wedge", 6, PARTS(WEDGE), 0, NULL},
+    {73, "Lagrange wedge", 18, PARTS(WEDGE_18), 0, NULL},
+    {74, "Lagrange pyramid", 5, PARTS(PYRAMID), 0, NULL},
 };
 
 /* Vertices, lines, and lines of several corners or points. */
@@ -141,22 +147,24 @@ static bool is_line(int type)
 
 enum { STRIP = 6, POLYGON = 7 };
 
-static const cell_type *find(int type)
+/* The type with so many nodes, or else the first of that number. */
+static const cell_type *find(int type, size_t nodes)
 {
+  const cell_type *first = NULL;
   for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i)
-    if (TYPES[i].number == type)
-      return &TYPES[i];
-  return NULL;
+    if (TYPES[i].number == type && (!first || (size_t)TYPES[i].nodes == nodes))
+      first = &TYPES[i];
+  return first;
 }
 
-static fg_status fail_type(const fg__cell_set *set, int type, int number)
+static fg_status fail_type(const fg__cell_set *set, int type, size_t nodes, int number)
 {
-  const cell_type *known = find(type);
-  fg__fail(
-      set->context, FG_STATUS_UNSUPPORTED,
-      "%s: cell %d is a %s (VTK's number %d); only linear and quadratic cells can be "
-      "read",
-      set->path, number, known ? known->name : "type that is not known", type);
+  const cell_type *known = find(type, nodes);
+  fg__fail(set->context, FG_STATUS_UNSUPPORTED,
+           "%s: cell %d is a %s of %zu points (VTK's number %d); only linear and "
+           "quadratic cells can be read",
+           set->path, number, known ? known->name : "type that is not known", nodes,
+           type);
   fg__hint(set->context, "%s", FG__CELL_RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
@@ -286,6 +294,39 @@ static fg_status add_many(fg__cell_set *set, int type, const double *node, size_
   return status;
 }
 
+static bool is_of_any_order(int type)
+{
+  return type >= 69 && type <= 74;
+}
+
+/* The square of the distance of a point from the middle between two. */
+static double off_middle(const fg__cell_set *set, int point, int a, int b)
+{
+  double sum = 0.0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double off =
+        set->position[3 * (size_t)point + k] -
+        0.5 * (set->position[3 * (size_t)a + k] + set->position[3 * (size_t)b + k]);
+    sum += off * off;
+  }
+  return sum;
+}
+
+/* VTK before 9 has the nodes of the last two edges of a Lagrange hexahedron in the other
+ * order; where they lie tells which it is. */
+static void order_edges(const fg__cell_set *set, int *point)
+{
+  const double as_now = off_middle(set, point[18], point[2], point[6]) +
+                        off_middle(set, point[19], point[3], point[7]);
+  const double as_before = off_middle(set, point[19], point[2], point[6]) +
+                           off_middle(set, point[18], point[3], point[7]);
+  if (as_before < as_now) {
+    const int kept = point[18];
+    point[18] = point[19];
+    point[19] = kept;
+  }
+}
+
 fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
                               size_t nodes, const fg__cell_points *points, int number)
 {
@@ -294,12 +335,15 @@ fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
     return FG_STATUS_OK;
   if (type == STRIP || type == POLYGON)
     return add_many(set, type, node, nodes, points, number);
-  const cell_type *known = find(type);
-  if (!known || known->parts == 0)
-    return fail_type(set, type, number);
-  if (nodes != (size_t)known->nodes)
+  const cell_type *known = find(type, nodes);
+  const bool fits = known && nodes == (size_t)known->nodes;
+  if (!known || known->parts == 0 || (!fits && is_of_any_order(type)))
+    return fail_type(set, type, nodes, number);
+  if (!fits)
     return fail_nodes(set, known->name, nodes, known->nodes, number);
   fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
+  if (status == FG_STATUS_OK && type == LAGRANGE_HEXAHEDRON && nodes == MOST_NODES)
+    order_edges(set, point);
   return status == FG_STATUS_OK ? add_parts(set, known, point, number) : status;
 }
 

@@ -379,14 +379,80 @@ static void parts_count_once_in_means(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* Adds nodes 0, 1, ... of the cells of CELLS that has as many of another type. */
+static fg__cell_set set_of_type(void *state, int type, const double *position, int nodes)
+{
+  fg__cell_set set = set_of(state, position, (size_t)nodes);
+  add_nodes(&set, type, nodes);
+  return set;
+}
+
+static void lagrange_cells_are_those_of_their_order(void **state)
+{
+  static const struct {
+    int lagrange, type, nodes, like; /* the type of CELLS whose nodes are taken */
+  } alike[] = {{69, 5, 3, 22},  {69, 22, 6, 22},  {70, 9, 4, 28},  {70, 28, 9, 28},
+               {71, 10, 4, 24}, {71, 24, 10, 24}, {72, 12, 8, 29}, {72, 29, 27, 29},
+               {73, 13, 6, 32}, {73, 32, 18, 32}, {74, 14, 5, 27}};
+  for (size_t i = 0; i < sizeof alike / sizeof *alike; ++i) {
+    const quadratic *cell = CELLS;
+    double position[3 * MOST];
+    while (cell->type != alike[i].like)
+      ++cell;
+    place_nodes(position, cell);
+    fg__cell_set set = set_of_type(*state, alike[i].lagrange, position, alike[i].nodes);
+    fg__cell_set other = set_of_type(*state, alike[i].type, position, alike[i].nodes);
+    assert_true(set.count > 0 && set.count == other.count);
+    assert_memory_equal(set.shape, other.shape, set.count);
+    assert_memory_equal(set.corner, other.corner, set.corners * sizeof *set.corner);
+    fg__cell_set_clear(&set);
+    fg__cell_set_clear(&other);
+  }
+  const double node[MOST] = {0};
+  const fg__cell_points all = {0, 1};
+  fg__cell_set set = {.context = *state, .path = "cells"};
+  for (int type = 69; type <= 74; ++type) { /* of order 3, or of another order along z */
+    assert_int_equal(fg__cell_set_add_as(&set, type, node, 16, &all, 7),
+                     FG_STATUS_UNSUPPORTED);
+    assert_non_null(strstr(fg_context_message(*state), "of 16 points"));
+    fg_context_clear(*state);
+  }
+  fg__cell_set_clear(&set);
+}
+
+/* Nodes 18 and 19 lie between corners 3 and 7, and 2 and 6, in files of VTK before 9. */
+static void edges_of_a_lagrange_hexahedron_come_in_either_order(void **state)
+{
+  const quadratic *cell = CELLS;
+  double now[3 * MOST], before[3 * MOST];
+  while (cell->type != 29)
+    ++cell;
+  place_nodes(now, cell);
+  memcpy(before, now, sizeof now);
+  memcpy(before + 3 * 18, now + 3 * 19, 3 * sizeof *now);
+  memcpy(before + 3 * 19, now + 3 * 18, 3 * sizeof *now);
+  fg__cell_set set = set_of_type(*state, 72, now, MOST);
+  fg__cell_set other = set_of_type(*state, 72, before, MOST);
+  for (size_t i = 0; i < set.corners; ++i)
+    for (int k = 0; k < 3; ++k)
+      assert_true(now[3 * set.corner[i] + k] == before[3 * other.corner[i] + k]);
+  fg__cell_set_clear(&set);
+  fg__cell_set_clear(&other);
+}
+
 #define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_fill_their_cell),     CASE(polygons_and_strips_are_triangles),
-      CASE(a_polyhedron_is_filled),    CASE(a_polyhedron_is_a_layer),
-      CASE(parts_count_once_in_means), CASE(tilted_planes_are_turned),
+      CASE(parts_fill_their_cell),
+      CASE(polygons_and_strips_are_triangles),
+      CASE(a_polyhedron_is_filled),
+      CASE(a_polyhedron_is_a_layer),
+      CASE(parts_count_once_in_means),
+      CASE(tilted_planes_are_turned),
+      CASE(lagrange_cells_are_those_of_their_order),
+      CASE(edges_of_a_lagrange_hexahedron_come_in_either_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
