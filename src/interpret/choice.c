@@ -72,13 +72,49 @@ static const fg__variable *find_direction(const fg__dataset *data)
   return NULL;
 }
 
+/* Axes in space are no variables of the file. */
+static bool is_of_file(const fg__dataset *data, const fg__variable *v)
+{
+  return v->element < 2 && !(data->space.is_there && v->location == FG__ON_GRID);
+}
+
+/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
+ * none. Returns how many there are. */
+static size_t list_variables(char *out, size_t size, const fg__dataset *data)
+{
+  size_t used = 0, count = 0;
+  out[0] = '\0';
+  for (int turn = 0; turn < 2; ++turn)
+    for (size_t i = 0; i < data->variable_count; ++i) {
+      const fg__variable *v = &data->variables[i];
+      const bool is_field = (v->rank >= 2 && v->type != FG__TYPE_LETTERS) || v->location;
+      if (is_field == (turn == 1) || !is_of_file(data, v))
+        continue;
+      ++count;
+      if (used + strlen(v->name) + 8 > size)
+        continue;
+      used +=
+          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
+    }
+  return count;
+}
+
+fg_status fg__fail_unknown(const fg__dataset *data, const char *name)
+{
+  char list[1024];
+  fg_status status =
+      fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%.100s'",
+               data->file[data->component_files - 1].path, name);
+  if (list_variables(list, sizeof list, data) > 0)
+    fg__hint(data->context, "its variables%s", list);
+  return status;
+}
+
 static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
                                    const char *name)
 {
   char list[1024];
-  fg_status status =
-      fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
-               data->file[data->component_files - 1].path, name);
+  const fg_status status = fg__fail_unknown(data, name);
   list_pairs(all, NULL, list, sizeof list);
   if (list[0])
     fg__hint(data->context, "pairs in it: %s", list);
@@ -141,15 +177,25 @@ static fg_status check_order(const fg__dataset *data, const candidates *all,
   return FG_STATUS_OK;
 }
 
+static fg_status choose_elements(fg__pair *out, const fg__dataset *data,
+                                 const fg__variable *vector)
+{
+  if (vector->components > 3)
+    return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                    "%s: '%s' has %d components, not 2 or 3", data->file[0].path,
+                    vector->name, vector->components);
+  *out = fg__pair_of_elements(vector);
+  out->found_by = "request";
+  return FG_STATUS_OK;
+}
+
 static fg_status choose_named(fg__pair *out, const fg__dataset *data,
                               const candidates *all, const char *vars)
 {
   char name[3][FG__NAME_BYTES];
   const fg__variable *vector = find_named(data, vars, 0);
-  if (vector && vector->element == 1) {
-    *out = (fg__pair){.component = {vector, vector + 1}, .found_by = "request"};
-    return FG_STATUS_OK;
-  }
+  if (vector && vector->element == 1)
+    return choose_elements(out, data, vector);
   const int count = split_names(name, vars);
   if (count == 0)
     return fail_names(data, all, vars);
@@ -158,6 +204,11 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
     out->component[k] = find_named(data, name[k], k > 0 ? data->component_files - 1 : 0);
     if (!out->component[k])
       return fail_unknown_name(data, all, name[k]);
+    if (out->component[k]->element)
+      return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                      "%s: '%s' has %d components; one of several variables must have "
+                      "one",
+                      data->file[0].path, name[k], out->component[k]->components);
   }
   for (int k = 0; k < count; ++k)
     if (out->component[k] == out->component[(k + 1) % count])
@@ -191,36 +242,18 @@ static fg_status fail_flat(const fg__dataset *data, const fg__pair *pair)
   return FG_STATUS_UNSUPPORTED;
 }
 
-/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
- * none. */
-static void list_variables(char *out, size_t size, const fg__dataset *data)
-{
-  size_t used = 0;
-  out[0] = '\0';
-  for (int turn = 0; turn < 2; ++turn)
-    for (size_t i = 0; i < data->variable_count; ++i) {
-      const fg__variable *v = &data->variables[i];
-      const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
-      if (is_field == (turn == 1) || v->element == 2 || used + strlen(v->name) + 8 > size)
-        continue;
-      used +=
-          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
-    }
-}
-
 static fg_status fail_no_vectors(const fg__dataset *data)
 {
   char names[1024];
-  list_variables(names, sizeof names, data);
-  fg_status status =
-      fg__fail(data->context, FG_STATUS_UNSUPPORTED,
-               "%s: no vectors found among its %zu variable%s%s", data->file[0].path,
-               data->variable_count, data->variable_count == 1 ? "" : "s", names);
+  const size_t count = list_variables(names, sizeof names, data);
+  fg_status status = fg__fail(data->context, FG_STATUS_UNSUPPORTED,
+                              "%s: no vectors found among its %zu variable%s%s",
+                              data->file[0].path, count, count == 1 ? "" : "s", names);
   const fg__variable *direction = find_direction(data);
   if (direction)
     fg__hint(data->context, "name the speed with its direction: --vars SPEED,%s",
              direction->name);
-  else if (data->component_files == 1)
+  else if (data->component_files == 1 && !data->space.is_there)
     fg__hint(data->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
   else
@@ -237,7 +270,11 @@ static fg_status fail_ambiguous(const fg__dataset *data, const candidates *all,
       fg__fail(data->context, FG_STATUS_ARGUMENT,
                "%s: holds %d vectors, and it is not clear which is meant: %s",
                data->file[0].path, count, list);
-  fg__hint(data->context, "choose one with --vars U,V");
+  int first = 0;
+  while (usable[first] == 0)
+    ++first;
+  write_names(list, sizeof list, &all->pair[first], usable[first] == 3);
+  fg__hint(data->context, "choose one, for example with --vars %s", list);
   return status;
 }
 
@@ -290,7 +327,8 @@ fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *d
       status = fg__grid_find(grid, data, pair, options);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(data, pair, grid);
-    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3)
+    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3 &&
+             !grid->domain)
       status = fail_flat(data, pair);
   } else if (status == FG_STATUS_OK) {
     status = choose_best(pair, grid, data, &all, options);

@@ -1,6 +1,7 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
+#include "interpret/space/space.h"
 #include "interpret/time/dates.h"
 #include "interpret/unstructured/unstructured.h"
 
@@ -387,7 +388,9 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
 fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                         const fg_read_options *options)
 {
-  const fg_status status = find_grid(grid, data, pair, options);
+  const fg_status status = data->space.is_there
+                               ? fg__space_find(grid, data, pair, options)
+                               : find_grid(grid, data, pair, options);
   if (status == FG_STATUS_OK && is_usable(grid))
     fg__check_polar(grid, pair, options);
   return status;

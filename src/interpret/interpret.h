@@ -52,6 +52,17 @@ fg__quantity fg__units_read(const char *units, char *label, size_t size);
 /* The seconds of a unit of time ("hours"); false for any other unit. */
 bool fg__units_seconds(const char *units, double *out);
 
+/* How a pair was found: the smallest is the best. */
+enum {
+  FG__RANK_MARKED = -2, /* in space: vectors that the file calls so, then other vectors */
+  FG__RANK_VECTOR = -1,
+  FG__RANK_STANDARD_VELOCITY = 0,
+  FG__RANK_NAMED_VELOCITY = 1,
+  FG__RANK_POLAR = 2, /* where the file has no components of a velocity */
+  FG__RANK_STANDARD_OTHER = 3,
+  FG__RANK_NAMED_OTHER = 4
+};
+
 typedef struct fg__pair {
   const fg__variable *component[3]; /* the third NULL when there is none */
   bool volume;                      /* the options name all three */
@@ -66,6 +77,11 @@ fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
 
 /* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data);
+
+/* space/vectors.c. The pair of a vector variable's elements, from its first; and whether
+ * a variable is that and may be the vector that is meant. */
+fg__pair fg__pair_of_elements(const fg__variable *first);
+bool fg__pair_of_vector(fg__pair *out, const fg__variable *v);
 
 /* The third component of a pair: a variable of the same dimensions and units, with a
  * matching name; NULL: none. */
@@ -144,8 +160,10 @@ typedef struct fg__staggered {
 
 typedef struct fg__grid {
   fg__curvilinear *mesh; /* of a curvilinear grid; NULL: points lie on axes, or */
-  fg__unstructured *unstructured; /* unstructured/; NULL: no such mesh */
-  bool off_axes; /* points do not lie on axes: a mesh, faces, or unusable */
+  fg__unstructured *unstructured;        /* unstructured/; NULL: no such mesh */
+  const struct fg__space_domain *domain; /* space/: points in space; NULL: they are not */
+  int component[3]; /* in space: which of the pair's is along each axis */
+  bool off_axes;    /* points do not lie on axes: a mesh, faces, or unusable */
   fg__staggered faces;
   int dimension;         /* 2: a plane at one level; 3 */
   fg__grid_axis axis[3]; /* x, y; the levels as z in 3D */
@@ -251,6 +269,9 @@ void fg__set_index_axes(fg__grid *grid, const fg__dataset *data, const fg__varia
  * UNSUPPORTED, FILE_ACCESS, MEMORY. */
 fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *data,
                             const fg_read_options *options);
+
+/* Fails for a name that no variable has; the hint lists those there are. ARGUMENT. */
+fg_status fg__fail_unknown(const fg__dataset *data, const char *name);
 
 /* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
  * where a value is missing. Adds to `missing`. */

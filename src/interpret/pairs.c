@@ -3,6 +3,7 @@
  * component: "U_GRD_6_ISBL" is "#_GRD_6_ISBL" with component x. A name can have several
  * patterns. Two variables with the same pattern and different components are a pair. */
 #include "base/memory.h"
+#include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 
 #include <ctype.h>
@@ -11,16 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum {
-  MOST_READINGS = 12,
-  MOST_TOKENS = 24,
-  KEY_BYTES = FG__NAME_BYTES + 8,
-  RANK_STANDARD_VELOCITY = 0,
-  RANK_NAMED_VELOCITY = 1,
-  RANK_POLAR = 2, /* where the file has no components of a velocity */
-  RANK_STANDARD_OTHER = 3,
-  RANK_NAMED_OTHER = 4
-};
+enum { MOST_READINGS = 12, MOST_TOKENS = 24, KEY_BYTES = FG__NAME_BYTES + 8 };
 
 typedef struct pattern {
   size_t variable;
@@ -287,6 +279,8 @@ static bool is_quality_name(const char *standard_name)
 
 static bool may_be_component(const fg__dataset *data, const fg__variable *v)
 {
+  if (data->space.is_there)
+    return fg__may_be_in_space(v);
   return v->file < data->component_files && fg__is_array(v) && !v->element &&
          (v->rank >= 2 || fg__unstructured_line(data, v));
 }
@@ -302,7 +296,8 @@ static bool list_patterns(pattern_list *list, const fg__dataset *data)
     const fg__quantity quantity = fg__units_read(text, label, sizeof label);
     const bool unitless = text[0] == '\0';
     fg__attribute_text(v, "standard_name", text, sizeof text);
-    if (quantity >= FG__QUANTITY_LENGTH && !strstr(text, "displacement"))
+    if (quantity >= FG__QUANTITY_LENGTH && !strstr(text, "displacement") &&
+        v->location == FG__ON_GRID)
       continue;
     if (is_quality_name(text))
       continue;
@@ -368,15 +363,15 @@ static bool append(pair_list *pairs, const fg__pair *pair)
 static bool add_pair(pair_list *pairs, const fg__dataset *data, const pattern *x,
                      const pattern *y)
 {
-  const int rank = x->standard
-                       ? (x->velocity ? RANK_STANDARD_VELOCITY : RANK_STANDARD_OTHER)
-                   : x->velocity && y->velocity ? RANK_NAMED_VELOCITY
-                                                : RANK_NAMED_OTHER;
+  const int rank =
+      x->standard ? (x->velocity ? FG__RANK_STANDARD_VELOCITY : FG__RANK_STANDARD_OTHER)
+      : x->velocity && y->velocity ? FG__RANK_NAMED_VELOCITY
+                                   : FG__RANK_NAMED_OTHER;
   const fg__pair pair = {
       .component = {&data->variables[x->variable], &data->variables[y->variable]},
       .found_by = x->standard ? "standard_name" : "names",
       .rank = rank,
-      .is_velocity = rank <= RANK_NAMED_VELOCITY};
+      .is_velocity = rank <= FG__RANK_NAMED_VELOCITY};
   for (size_t i = 0; i < pairs->count; ++i)
     if (pairs->entry[i].component[0] == pair.component[0] &&
         pairs->entry[i].component[1] == pair.component[1]) {
@@ -431,22 +426,13 @@ static bool pair_groups(pair_list *pairs, const fg__dataset *data,
   return memory;
 }
 
-/* Vector variables, which file.c lists as two in a row. */
+/* Vector variables, whose elements are listed in a row. */
 static bool add_vectors(pair_list *pairs, const fg__dataset *data)
 {
   for (size_t i = 0; i + 1 < data->variable_count; ++i) {
-    char units[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
-    if (data->variables[i].element != 1 ||
-        data->variables[i].file >= data->component_files)
-      continue;
-    fg__attribute_text(&data->variables[i], "units", units, sizeof units);
-    const bool velocity =
-        !units[0] || fg__units_read(units, label, sizeof label) == FG__QUANTITY_SPEED;
-    const fg__pair pair = {.component = {&data->variables[i], &data->variables[i + 1]},
-                           .found_by = "its last dimension",
-                           .rank = velocity ? RANK_NAMED_VELOCITY : RANK_NAMED_OTHER,
-                           .is_velocity = velocity};
-    if (!append(pairs, &pair))
+    fg__pair pair;
+    if (data->variables[i].file < data->component_files &&
+        fg__pair_of_vector(&pair, &data->variables[i]) && !append(pairs, &pair))
       return false;
   }
   return true;
@@ -456,7 +442,7 @@ static bool add_vectors(pair_list *pairs, const fg__dataset *data)
 static bool add_polar(pair_list *pairs, const fg__dataset *data)
 {
   for (size_t i = 0; i < data->variable_count; ++i) {
-    fg__pair pair = {.found_by = "standard_name", .rank = RANK_POLAR};
+    fg__pair pair = {.found_by = "standard_name", .rank = FG__RANK_POLAR};
     if (may_be_component(data, &data->variables[i]) &&
         fg__find_polar(&pair, data, &data->variables[i]) && !append(pairs, &pair))
       return false;
@@ -492,6 +478,8 @@ fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data)
   for (fg__pair *p = pairs.entry; p && p < pairs.entry + pairs.count; ++p)
     if (!p->component[0]->element && p->polar.sense == 0)
       p->component[2] = fg__third_component(data, p);
+  if (data->space.is_there)
+    fg__drop_repeated(pairs.entry, &pairs.count);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;

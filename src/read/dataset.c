@@ -4,6 +4,7 @@
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
+#include "sample/space/space.h"
 #include "sample/unstructured/mesh.h"
 #include "sample/velocity.h"
 
@@ -12,15 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-static fg_status open_file(fg__dataset *data, fg_context *context,
-                           const fg__dataset_format *format, const fg__source *source)
-{
-  const fg_status status = format->open(data, context, source);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i)
-    fg__classify(&data->variables[i]);
-  return status;
-}
 
 /* Whether two paths lead to one file. */
 static bool is_one_file(const char *path, const char *other)
@@ -42,7 +34,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
     status = fg__fail(context, FG_STATUS_FILE_FORMAT,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
-    status = open_file(data, context, format, &source);
+    status = fg__dataset_open(data, context, format, &source, NULL);
   fg__source_close(&source);
   return status;
 }
@@ -201,7 +193,7 @@ static fg_status choose(fg__dataset *data, fg__pair *pair, fg__grid *grid,
                         fg_context *context, const fg__dataset_format *format,
                         const fg__source *source, const fg_read_options *options)
 {
-  fg_status status = open_file(data, context, format, source);
+  fg_status status = fg__dataset_open(data, context, format, source, options);
   if (status == FG_STATUS_OK && options->vars_from) {
     status = add_file(data, context, format, options->vars_from);
     data->component_files = 2;
@@ -233,7 +225,7 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
   fg__grid_clear(grid);
-  fg__dataset_close(data);
+  fg__dataset_end(data);
   return status;
 }
 
@@ -252,6 +244,8 @@ fg_status fg__dataset_read(fg_field **out, fg_context *context,
       status = fg__globe_field(out, context, sphere, slab);
   } else if (status == FG_STATUS_OK && grid.unstructured) {
     status = fg__unstructured_field(out, &data, &pair, &grid, options, slab);
+  } else if (status == FG_STATUS_OK && grid.domain) {
+    status = fg__space_field(out, &data, &pair, &grid, options, slab);
   } else if (status == FG_STATUS_OK) {
     status = make_field(out, &data, &pair, &grid, options, slab);
   }
@@ -309,7 +303,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   fg_axis_value *times = NULL, *levels = NULL;
   char *time_text = NULL, *level_text = NULL;
   fg_status status = FG_STATUS_OK;
-  if (!vector->unusable)
+  if (!vector->unusable && grid->domain)
+    status = fg__space_times(&times, &time_text, data);
+  else if (!vector->unusable)
     status = fg__grid_axis_values(&times, &time_text, data, grid->time_variable,
                                   (size_t)vector->times);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
@@ -377,7 +373,7 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
     return fg__curvilinear_describe(vector, data, pair, grid);
   if (grid->unstructured)
     return fg__unstructured_describe(vector, data, pair, grid);
-  return count_missing(vector, data, pair, grid);
+  return grid->domain ? FG_STATUS_OK : count_missing(vector, data, pair, grid);
 }
 
 /* Adds the vector of a pair to the inventory. reads: the mesh or all samples may be
@@ -411,9 +407,11 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .absent = defaults.absent[0] ? defaults.absent : NULL,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
-  const bool on_axes = !grid->mesh && !grid->unstructured;
+  const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
   if (on_axes)
     describe_axes(&vector, grid);
+  if (grid->domain && status == FG_STATUS_OK)
+    status = fg__space_describe(&vector, data, pair, grid, reads);
   if (grid->unusable[0]) {
     snprintf(texts.unusable, sizeof texts.unusable, "%s%s%s", grid->unusable,
              grid->hint[0] ? "; " : "", grid->hint);
@@ -447,13 +445,13 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
   fg__dataset data = {0};
   fg__pair *pairs = NULL;
   size_t count = 0;
-  fg_status status = open_file(&data, context, format, source);
+  fg_status status = fg__dataset_open(&data, context, format, source, NULL);
   if (status == FG_STATUS_OK)
     status = fg__pairs_find(&pairs, &count, &data);
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
     status = describe_pair(inventory, &data, &pairs[i]);
   free(pairs);
-  fg__dataset_close(&data);
+  fg__dataset_end(&data);
   return status;
 }
 

@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "sample/cells/set.h"
@@ -165,7 +166,7 @@ static fg_status fail_type(const fg__cell_set *set, int type, size_t nodes, int 
            "quadratic cells can be read",
            set->path, number, known ? known->name : "type that is not known", nodes,
            type);
-  fg__hint(set->context, "%s", FG__CELL_RESAMPLE);
+  fg__hint(set->context, "%s", FG__RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
 
@@ -280,20 +281,6 @@ static fg_status add_strip(fg__cell_set *set, const int *point, size_t corners,
   return status;
 }
 
-/* Polygons and strips have any number of corners. */
-static fg_status add_many(fg__cell_set *set, int type, const double *node, size_t nodes,
-                          const fg__cell_points *points, int number)
-{
-  int *point = fg__allocate(nodes, sizeof *point);
-  if (!point)
-    return fg__fail_memory(set->context, "a polygon", nodes * sizeof *point);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  if (status == FG_STATUS_OK)
-    status = (type == STRIP ? add_strip : add_polygon)(set, point, nodes, number);
-  free(point);
-  return status;
-}
-
 static bool is_of_any_order(int type)
 {
   return type >= 69 && type <= 74;
@@ -327,36 +314,16 @@ static void order_edges(const fg__cell_set *set, int *point)
   }
 }
 
-fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
-                              size_t nodes, const fg__cell_points *points, int number)
-{
-  int point[MOST_NODES + MOST_MIDDLES];
-  if (is_line(type))
-    return FG_STATUS_OK;
-  if (type == STRIP || type == POLYGON)
-    return add_many(set, type, node, nodes, points, number);
-  const cell_type *known = find(type, nodes);
-  const bool fits = known && nodes == (size_t)known->nodes;
-  if (!known || known->parts == 0 || (!fits && is_of_any_order(type)))
-    return fail_type(set, type, nodes, number);
-  if (!fits)
-    return fail_nodes(set, known->name, nodes, known->nodes, number);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  if (status == FG_STATUS_OK && type == LAGRANGE_HEXAHEDRON && nodes == MOST_NODES)
-    order_edges(set, point);
-  return status == FG_STATUS_OK ? add_parts(set, known, point, number) : status;
-}
-
 /* The pyramids between a face and the middle, in tetrahedra: from the face's first point
  * in the file's order, so that it is divided alike from both its sides. */
-static fg_status add_face(fg__cell_set *set, const int *point, size_t corners, int middle,
+static fg_status add_face(fg__cell_set *set, const int *point, int corners, int middle,
                           int number)
 {
-  size_t first = 0;
+  int first = 0;
   fg_status status = FG_STATUS_OK;
-  for (size_t i = 1; i < corners; ++i)
+  for (int i = 1; i < corners; ++i)
     first = point[i] < point[first] ? i : first;
-  for (size_t i = 1; i + 1 < corners && status == FG_STATUS_OK; ++i)
+  for (int i = 1; i + 1 < corners && status == FG_STATUS_OK; ++i)
     status = fg__cell_set_add_points(set, FG__CELL_TETRAHEDRON,
                                      (int[4]){point[first], point[(first + i) % corners],
                                               point[(first + i + 1) % corners], middle},
@@ -364,44 +331,45 @@ static fg_status add_face(fg__cell_set *set, const int *point, size_t corners, i
   return status;
 }
 
-static fg_status add_faces(fg__cell_set *set, int *point, int middle, const double *face,
-                           size_t numbers, const fg__cell_points *points, int number)
+/* Between its faces and the mean of its points lie pyramids; so it should be convex. */
+static fg_status add_polyhedron(fg__cell_set *set, const int *corner, size_t count,
+                                int number)
 {
-  size_t at = 1;
-  fg_status status = FG_STATUS_OK;
-  for (double f = 0.0; f < face[0] && status == FG_STATUS_OK; ++f) {
-    const double corners = at < numbers ? face[at++] : -1.0;
-    if (!(corners >= 0.0 && corners <= (double)(numbers - at)))
-      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                      "%s: the faces of cell %d, a polyhedron, are not within their %zu "
-                      "numbers",
-                      set->path, number, numbers);
-    status = fg__cell_set_resolve(point, set, face + at, (size_t)corners, points, number);
-    if (status == FG_STATUS_OK)
-      status = add_face(set, point, (size_t)corners, middle, number);
-    at += (size_t)corners;
+  const int nodes = corner[0], *face = corner + 1 + nodes;
+  int middle = 0;
+  if ((size_t)nodes + 1 == count)
+    return fail_type(set, FG__POLYHEDRON, (size_t)nodes, number);
+  if (nodes < 4)
+    return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                    "%s: cell %d is a polyhedron with %d corners", set->path, number,
+                    nodes);
+  fg_status status = add_middle(&middle, set, 0, nodes, corner + 1);
+  int faces = *face++;
+  for (; faces > 0 && status == FG_STATUS_OK; --faces) {
+    status = add_face(set, face + 1, face[0], middle, number);
+    face += 1 + face[0];
   }
   return status;
 }
 
-fg_status fg__cell_set_add_polyhedron(fg__cell_set *set, const double *node, size_t nodes,
-                                      const double *face, size_t numbers,
-                                      const fg__cell_points *points, int number)
+fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const int *corner,
+                              size_t count, int number)
 {
-  if (nodes < 4 || nodes > INT_MAX || numbers == 0)
-    return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                    "%s: cell %d is a polyhedron with %zu corners and %zu numbers of its "
-                    "faces",
-                    set->path, number, nodes, numbers);
-  const size_t room = nodes > numbers ? nodes : numbers;
-  int *point = fg__allocate(room, sizeof *point), middle = 0;
-  if (!point)
-    return fg__fail_memory(set->context, "a polyhedron", room * sizeof *point);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  if (status == FG_STATUS_OK)
-    status = add_middle(&middle, set, 0, (int)nodes, point);
-  if (status == FG_STATUS_OK)
-    status = add_faces(set, point, middle, face, numbers, points, number);
-  free(point);
-  return status;
+  int point[MOST_NODES + MOST_MIDDLES];
+  if (is_line(type))
+    return FG_STATUS_OK;
+  if (type == STRIP || type == POLYGON)
+    return (type == STRIP ? add_strip : add_polygon)(set, corner, count, number);
+  if (type == FG__POLYHEDRON)
+    return add_polyhedron(set, corner, count, number);
+  const cell_type *known = find(type, count);
+  const bool fits = known && count == (size_t)known->nodes;
+  if (!known || known->parts == 0 || (!fits && is_of_any_order(type)))
+    return fail_type(set, type, count, number);
+  if (!fits)
+    return fail_nodes(set, known->name, count, known->nodes, number);
+  memcpy(point, corner, count * sizeof *point);
+  if (type == LAGRANGE_HEXAHEDRON && count == MOST_NODES)
+    order_edges(set, point);
+  return add_parts(set, known, point, number);
 }
