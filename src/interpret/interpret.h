@@ -159,6 +159,7 @@ typedef struct fg__grid {
   size_t samples;   /* product of the axes' sizes */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
   char hint[FG__TEXT_BYTES];
+  char doubts[FG__REASON_BYTES]; /* lines: what is unsure of all this */
 } fg__grid;
 
 /* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has

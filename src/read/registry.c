@@ -291,6 +291,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
     return key;
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  key = mix_text(key, options->missing);
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);

@@ -22,7 +22,8 @@ fg_status fg__sphere_read(fg__sphere **out, const fg__dataset *data, const fg__p
       .title = words.title,
       .time = words.time[0] ? words.time : NULL,
       .level = words.level[0] ? words.level : NULL,
-      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL};
+      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL,
+      .doubts = grid->doubts[0] ? grid->doubts : NULL};
   cells.words = &of_field;
   cells.threads = options->map ? options->map->threads : 0;
   return fg__sphere_of_cells(out, data->context, &cells);
