@@ -206,6 +206,12 @@ fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
 fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset *data,
                             const fg__variable *u, const fg__variable *v);
 
+/* Whether most longitudes or latitudes in two dimensions are others than those of the
+ * coordinates along the grid's axes. MEMORY, FILE_ACCESS. */
+fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
+                                const fg__variable *variable,
+                                const fg__variable *const coordinate[2]);
+
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__alike_dimension(const fg__dataset *data, int a, int b);
 

@@ -375,7 +375,7 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
 
 /* Fills in what requires reading the mesh or all samples. */
 static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset *data,
-                                  const fg__pair *pair, const fg__grid *grid)
+                                  const fg__pair *pair, fg__grid *grid)
 {
   if (grid->mesh)
     return fg__curvilinear_describe(vector, data, pair, grid);
@@ -398,7 +398,7 @@ static void take_refusal(char *out, size_t size, const fg__dataset *data)
 /* Adds the vector of a pair to the inventory. reads: the mesh or all samples may be
  * read. */
 static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
-                               const fg__pair *pair, const fg__grid *grid,
+                               const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
   vector_texts texts;
@@ -425,7 +425,6 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .usual_level = defaults.level,
       .absent = defaults.absent[0] ? defaults.absent : NULL,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
-      .doubts = grid->doubts[0] ? grid->doubts : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured;
   if (on_axes)
@@ -445,6 +444,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       vector.unusable = texts.unusable;
     }
   }
+  vector.doubts = grid->doubts[0] ? grid->doubts : NULL;
   if (pair->polar.sense != 0 && !grid->mesh)
     vector.frame = describe_polar(&texts, pair, grid);
   return status == FG_STATUS_OK ? add_vector(inventory, &vector, data, grid) : status;

@@ -96,8 +96,8 @@ static extremes find_extremes(const fg__raw_samples *s, int k)
   return e;
 }
 
-/* Numbers that programs write for missing data and that may be near to other values: nines
- * alone, as -99.9 and 9999, and the ends of whole numbers in two bytes. */
+/* Numbers that programs write for missing data and that may be near to other values:
+ * nines alone, as -99.9 and 9999, and the ends of whole numbers in two bytes. */
 static bool is_customary(float value)
 {
   const float size = fabsf(value);

@@ -358,8 +358,8 @@ fg_status fg__curvilinear_read(fg__sphere_cells *out, fg__curvilinear *mesh,
   if (status == FG_STATUS_OK)
     status = fill(&all, mesh, data, time, level, mask);
   if (status == FG_STATUS_OK)
-    status = fg__cells_make(&out->corner, &out->count, data, &all.at, mesh->size,
-                            all.repeated, all.closed);
+    status = fg__cells_make(&out->corner, &out->count, &mesh->left_out, data, &all.at,
+                            mesh->size, all.repeated, all.closed);
   if (status == FG_STATUS_OK) {
     out->points = all.count;
     out->longitude = all.at.longitude;
