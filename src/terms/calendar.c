@@ -20,7 +20,7 @@ bool fg__calendar_find(fg__calendar *out, const char *name)
       [FG__CALENDAR_360_DAYS] = "360_day|360", /* the second of the IRI Data Library */
   };
   for (int k = 0; k < (int)(sizeof names / sizeof *names); ++k)
-    if (fg__is_listed(names[k], name, strlen(name))) {
+    if (fg__is_one_of(names[k], name, strlen(name))) {
       *out = (fg__calendar)k;
       return true;
     }

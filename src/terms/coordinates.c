@@ -66,7 +66,7 @@ static const char *const POSSIBLE[] = {
 static fg__role find_role(const role_row *rows, size_t count, const char *word)
 {
   for (size_t i = 0; i < count; ++i)
-    if (fg__is_listed(rows[i].words, word, strlen(word)))
+    if (fg__is_one_of(rows[i].words, word, strlen(word)))
       return rows[i].role;
   return FG__NO_ROLE;
 }
@@ -121,7 +121,7 @@ fg__role fg__role_of_name(const char *name)
   if (fg__find_text(name, "time"))
     return FG__ROLE_TIME;
   for (size_t i = 0; i < COUNT_OF(BEGINNINGS); ++i)
-    if (fg__starts_listed(BEGINNINGS[i].words, name, strlen(name)))
+    if (fg__starts_with_one_of(BEGINNINGS[i].words, name, strlen(name)))
       return BEGINNINGS[i].role;
   return FG__NO_ROLE;
 }
@@ -130,7 +130,8 @@ fg__role fg__geographic_role(const fg__term *term)
 {
   static const role_row standard[] = {{FG__ROLE_X, "longitude"},
                                       {FG__ROLE_Y, "latitude"}};
-  const char *units = or_empty(term->units), *name = or_empty(term->standard_name);
+  const char *units = or_empty(term->units), *name = or_empty(term->standard_name),
+             *plain = fg__last_part(term->name);
   fg__unit unit;
   fg__unit_read(&unit, units);
   if (unit.quantity == FG__QUANTITY_DEGREES_EAST ||
@@ -141,13 +142,13 @@ fg__role fg__geographic_role(const fg__term *term)
   if (name[0])
     return find_role(standard, COUNT_OF(standard), name);
   for (int k = 0; k < 2; ++k)
-    if (fg__starts_with(term->name, k == 0 ? "lon" : "lat") ||
-        fg__column_fits(term->name, k == 0 ? FG__COLUMN_LONGITUDE : FG__COLUMN_LATITUDE))
+    if (fg__starts_with(plain, k == 0 ? "lon" : "lat") ||
+        fg__column_fits(plain, k == 0 ? FG__COLUMN_LONGITUDE : FG__COLUMN_LATITUDE))
       return k == 0 ? FG__ROLE_X : FG__ROLE_Y;
   return FG__NO_ROLE;
 }
 
-bool fg__may_be_index(const fg__term *term)
+bool fg__term_may_be_index(const fg__term *term)
 {
   const char *standard = or_empty(term->standard_name);
   fg__unit unit;
@@ -171,21 +172,22 @@ int fg__column_fits(const char *name, fg__column_use use)
 {
   char plain[64];
   fg__plain_name(plain, sizeof plain, name);
-  if (fg__is_listed(COLUMNS[use], plain, strlen(plain)))
+  if (fg__is_one_of(COLUMNS[use], plain, strlen(plain)))
     return 2;
   return is_place_with_unit(plain, use) ||
          (use <= FG__COLUMN_Z && fg__is_same(POSSIBLE[use], plain));
 }
 
-/* "x_rho", "x_u", "x2": a letter and a point of a grid, or a number. */
+/* "x_rho", "x_u", "x2", "x/D": a letter and a point of a grid, a number, or a length in
+ * which it is measured. */
 static bool is_place_on_grid(const char *plain, fg__column_use use)
 {
-  static const char points[] = "rho|psi|t|u|v|w|c|f";
+  static const char points[] = "rho|psi|t|u|v|w|c|f|d|h|l|r";
   const char *rest = plain + 1;
   if (use > FG__COLUMN_Z || plain[0] != "xyz"[use])
     return false;
   rest += *rest == '_';
-  return !rest[strspn(rest, "0123456789")] || fg__is_listed(points, rest, strlen(rest));
+  return !rest[strspn(rest, "0123456789")] || fg__is_one_of(points, rest, strlen(rest));
 }
 
 bool fg__names_coordinate(const char *name)

@@ -28,7 +28,7 @@ fg__role fg__role_of_name(const char *name);
 fg__role fg__geographic_role(const fg__term *term);
 
 /* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
-bool fg__may_be_index(const fg__term *term);
+bool fg__term_may_be_index(const fg__term *term);
 
 /* What a column or array beside those of a vector has. */
 typedef enum fg__column_use {

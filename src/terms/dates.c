@@ -77,8 +77,8 @@ static bool read_clock(const char **text, double *seconds)
 static int months_of(const char *word)
 {
   const size_t length = strlen(word);
-  return fg__is_listed("month|months", word, length) ? 1
-         : fg__is_listed("year|years", word, length) ? 12
+  return fg__is_one_of("month|months", word, length) ? 1
+         : fg__is_one_of("year|years", word, length) ? 12
                                                      : 0;
 }
 
@@ -96,7 +96,7 @@ static bool read_reference(const char *units, double *unit, int *months, fg__dat
   if (sscanf(units, "%31s %7s %d-%d-%d%n", word, since, &year, &date->month, &date->day,
              &used) != 5 ||
       !fg__is_same(since, "since") ||
-      ((*months = months_of(word)) == 0 && !fg__seconds_of(word, unit)) ||
+      ((*months = months_of(word)) == 0 && !fg__units_seconds(word, unit)) ||
       date->month < 1 || date->month > 12 || date->day < 1 || date->day > 31 ||
       year < -10000 || year > 100000 || !strchr(" Tt", units[used]))
     return false;
@@ -174,7 +174,7 @@ bool fg__date_of_number(double value, const char *units, const char *calendar, c
   int months;
   int64_t rest;
   fg__date reference;
-  if (fg__is_same(units, FG__ABSOLUTE_DATE))
+  if (fg__is_same(units, FG__ABSOLUTE_DATES))
     return write_absolute(out, size, value);
   if (!fg__calendar_find(&kind, calendar) ||
       !read_reference(units, &unit, &months, &reference, &offset) ||
@@ -219,7 +219,7 @@ bool fg__duration(double value, const char *units, char *out, size_t size)
     const char *label;
   } parts[] = {{86400, "d"}, {3600, "h"}, {60, "min"}, {1, "s"}};
   double unit;
-  if (!fg__seconds_of(units, &unit))
+  if (!fg__units_seconds(units, &unit))
     return false;
   const double whole = nearbyint(fabs(value) * unit);
   if (!(whole <= LARGEST_DAYS * DAY_SECONDS) || fabs(fabs(value) * unit - whole) > 1e-6)
@@ -344,10 +344,10 @@ bool fg__date_of_text(const char *text, char *out, size_t size)
   return true;
 }
 
-int64_t fg__day_number(int64_t year, int month, int day)
+int64_t fg__day_number(int64_t year, int64_t month, int64_t day)
 {
   const int64_t months = 12 * year + month - 1, past = (months % 12 + 12) % 12;
-  const fg__date date = {(months - past) / 12, (int)past + 1, day};
+  const fg__date date = {(months - past) / 12, (int)past + 1, (int)day};
   return fg__calendar_day(FG__CALENDAR_GREGORIAN, date) -
          fg__calendar_day(FG__CALENDAR_GREGORIAN, (fg__date){1970, 1, 1});
 }

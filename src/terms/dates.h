@@ -43,6 +43,6 @@ bool fg__period_read_start(fg__period *out, const char *words);
 
 /* Days from 1970-01-01 to a day of the proleptic Gregorian calendar; one past the end of
  * its month lies in the next. */
-int64_t fg__day_number(int64_t year, int month, int day);
+int64_t fg__day_number(int64_t year, int64_t month, int64_t day);
 
 #endif

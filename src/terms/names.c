@@ -73,8 +73,8 @@ static const char *or_empty(const char *text)
 
 static bool spoils(const char *text, size_t length)
 {
-  return fg__is_listed(SPOILING, text, length) ||
-         fg__starts_listed(SPOILING_STARTS, text, length);
+  return fg__is_one_of(SPOILING, text, length) ||
+         fg__starts_with_one_of(SPOILING_STARTS, text, length);
 }
 
 /* Whether another term has the name but for a word at its beginning or end: u beside
@@ -96,7 +96,7 @@ static bool is_spoilt(const fg__term *terms, size_t count, const char *name,
   for (int i = 0; i < n; ++i) {
     const char *text = name + tokens[i].start;
     const size_t length = tokens[i].length;
-    const bool letter = length > 1 && fg__is_listed("u|v|x|y", text, 1);
+    const bool letter = length > 1 && fg__is_one_of("u|v|x|y", text, 1);
     if (spoils(text, length) || (letter && spoils(text + 1, length - 1)))
       return true;
     if (fg__is_word(text, length, "sigma") &&
@@ -139,10 +139,10 @@ static bool is_by_vector(const fg__pattern *whole, const fg__token *tokens, int 
     fg__token t = tokens[i];
     if (t.start <= hole.start && t.start + t.length >= end)
       t = (fg__token){t.start == hole.start ? end : t.start, t.length - hole.length};
-    if (fg__is_listed(letters, whole->text + t.start, t.length))
+    if (fg__is_one_of(letters, whole->text + t.start, t.length))
       return true;
     for (size_t at = t.start; at < t.start + t.length; ++at)
-      if (fg__starts_listed(VECTORS, whole->text + at, t.start + t.length - at))
+      if (fg__starts_with_one_of(VECTORS, whole->text + at, t.start + t.length - at))
         return true;
   }
   return before == ':' || before == '[' || fg__plainness(whole->text, NULL) >= 0;
@@ -270,7 +270,7 @@ static int find_bracketed(const char *name, const fg__token *tokens, int count)
   for (int i = 0; i < count; ++i) {
     const char *token = name + tokens[i].start;
     if (tokens[i].start > 0 && tokens[i].length == 1 && strchr(":[", token[-1]) &&
-        (fg__is_digit(*token) || fg__is_listed("i|j|k", token, 1)))
+        (fg__is_digit(*token) || fg__is_one_of("i|j|k", token, 1)))
       return i;
   }
   return -1;
@@ -281,10 +281,10 @@ static bool add_name(fg__patterns *list, const fg__pattern *whole, const fg__ter
 {
   fg__token tokens[FG__MOST_TOKENS];
   const int count = fg__split_name(tokens, whole->text);
-  const char *plain = strrchr(whole->text, '/');
   bool is_word, added = true;
   if (is_spoilt(terms, terms_count, whole->text, tokens, count) ||
-      fg__names_coordinate(plain ? plain + 1 : whole->text))
+      fg__names_coordinate(whole->text) ||
+      fg__names_coordinate(fg__last_part(whole->text)))
     return true;
   const int index = find_bracketed(whole->text, tokens, count);
   if (index >= 0)

@@ -17,9 +17,6 @@ static const double TURN = 360.0 * FG__RADIANS;
 static const char SPEEDS[] = "speed|spd|vel|velocity|sknt";
 static const char *const DIRECTIONS[] = {"direction", "dirn", "dir", "drct"};
 
-/* Whole names of a direction and its speed: synoptic tables'. */
-static const char *const SYNOPTIC[][2] = {{"dd", "ff"}};
-
 static const char *or_empty(const char *text)
 {
   return text ? text : "";
@@ -45,7 +42,7 @@ static double unit_of(const char *units)
   fg__unit_read(&unit, word);
   if (unit.quantity != FG__QUANTITY_DEGREES && unit.quantity != FG__QUANTITY_RADIANS)
     return 0.0;
-  return *second && !fg__is_listed(after, second, strcspn(second, " _")) ? 0.0
+  return *second && !fg__is_one_of(after, second, strcspn(second, " _")) ? 0.0
                                                                          : unit.factor;
 }
 
@@ -62,12 +59,10 @@ static const char *find_direction(const char *plain)
   return NULL;
 }
 
-static int synoptic_row(const char *plain, int k)
+/* Whether a term is called as synoptic tables call the wind's direction (0) or speed. */
+static bool is_synoptic(const fg__term *term, int k)
 {
-  for (int i = 0; i < (int)(sizeof SYNOPTIC / sizeof *SYNOPTIC); ++i)
-    if (strcmp(plain, SYNOPTIC[i][k]) == 0)
-      return i;
-  return -1;
+  return fg__is_same(term->name, k == 0 ? "dd" : "ff");
 }
 
 /* Whether "from" is there, other than in "clockwise from north". */
@@ -76,7 +71,7 @@ static bool has_from(const char *text)
   static const char origins[] = "north|true|geographic|east|x|the";
   for (const char *at = text; (at = fg__find_text(at, "from")) != NULL; ++at) {
     const char *next = at + 4 + strspn(at + 4, " _");
-    if (!fg__is_listed(origins, next, strcspn(next, " _,;.()")))
+    if (!fg__is_one_of(origins, next, strcspn(next, " _,;.()")))
       return true;
   }
   return false;
@@ -95,7 +90,7 @@ static bool has_to(const char *text)
 static int sense_of(const fg__term *term)
 {
   const char *standard = standard_name(term), *more = or_empty(term->long_name);
-  const char *name = strrchr(term->name, '/') ? strrchr(term->name, '/') + 1 : term->name;
+  const char *name = fg__last_part(term->name);
   if (standard[0])
     return strstr(standard, "from_direction") ? -1 : 1;
   if (has_from(name) || has_from(more))
@@ -123,7 +118,7 @@ bool fg__direction_read(fg__polar *out, const fg__term *term)
   char plain[NAME_BYTES];
   const char *standard = standard_name(term), *units = or_empty(term->units);
   fg__plain_name(plain, sizeof plain, term->name);
-  const bool by_name = find_direction(plain) || synoptic_row(plain, 0) >= 0;
+  const bool by_name = find_direction(plain) != NULL;
   *out = (fg__polar){.sense = sense_of(term),
                      .unit = units[0]                       ? unit_of(units)
                              : fg__find_text(plain, "_rad") ? 1.0
@@ -131,7 +126,7 @@ bool fg__direction_read(fg__polar *out, const fg__term *term)
                      .from_east = is_from_east(term)};
   if (standard[0])
     return strstr(standard, "direction") != NULL;
-  return (by_name || units[0]) && out->unit > 0.0 &&
+  return (by_name || (units[0] && out->unit > 0.0)) &&
          fg__geographic_role(term) == FG__NO_ROLE;
 }
 
@@ -197,7 +192,7 @@ static bool is_speed_like(const char *name, const char *direction, const char *a
   const size_t before = (size_t)(at - direction), end = strlen(rest), all = strlen(name);
   return all > before + end && strncmp(name, direction, before) == 0 &&
          strcmp(name + all - end, rest) == 0 &&
-         fg__is_listed(SPEEDS, name + before, all - before - end);
+         fg__is_one_of(SPEEDS, name + before, all - before - end);
 }
 
 /* Of wind_direction_10m wind_speed_10m, of wind_dir_deg wind_speed. */
@@ -206,15 +201,13 @@ static int speed_by_name(const fg__term *terms, size_t count, const fg__term *di
   char plain[NAME_BYTES], other[NAME_BYTES];
   fg__plain_name(plain, sizeof plain, direction->name);
   const char *at = find_direction(plain);
-  const int row = synoptic_row(plain, 0);
-  for (int part = 0; part < 2 && (at || row >= 0); ++part)
+  for (int part = 0; part < 2 && (at || is_synoptic(direction, 0)); ++part)
     for (size_t i = 0; i < count; ++i) {
       fg__plain_name(other, sizeof other, terms[i].name);
       if (terms[i].place != direction->place || terms[i].group != direction->group)
         continue;
       const char *rest = part || !at ? "" : at + strcspn(at, "_0123456789");
-      if (row >= 0 ? synoptic_row(other, 1) == row
-                   : is_speed_like(other, plain, at, rest))
+      if (at ? is_speed_like(other, plain, at, rest) : is_synoptic(&terms[i], 1))
         return (int)i;
     }
   return -1;
@@ -223,7 +216,7 @@ static int speed_by_name(const fg__term *terms, size_t count, const fg__term *di
 int fg__speed_of(fg__polar *out, const fg__term *terms, size_t count, size_t direction)
 {
   const fg__term *way = &terms[direction];
-  if (!fg__direction_read(out, way))
+  if (!fg__direction_read(out, way) && !is_synoptic(way, 0))
     return -1;
   return standard_name(way)[0] ? speed_by_standard_name(terms, count, way)
                                : speed_by_name(terms, count, way);
@@ -232,7 +225,9 @@ int fg__speed_of(fg__polar *out, const fg__term *terms, size_t count, size_t dir
 int fg__direction_among(fg__polar *out, const fg__term *a, const fg__term *b)
 {
   fg__polar of[2];
-  const bool way[2] = {fg__direction_read(&of[0], a), fg__direction_read(&of[1], b)};
+  const bool way[2] = {
+      fg__direction_read(&of[0], a) || (is_synoptic(a, 0) && is_synoptic(b, 1)),
+      fg__direction_read(&of[1], b) || (is_synoptic(b, 0) && is_synoptic(a, 1))};
   *out = way[0] == way[1] ? (fg__polar){0} : of[way[1]];
   return way[0] == way[1] ? -1 : way[1];
 }
@@ -244,12 +239,12 @@ bool fg__names_speed(const char *name)
   for (int i = 0; i < count; ++i) {
     const fg__token core = fg__without_digits(name, tokens[i]);
     for (size_t at = 0; at < core.length; ++at)
-      if (fg__is_listed("speed|spd|sknt|gust", name + core.start + at, core.length - at))
+      if (fg__is_one_of("speed|spd|sknt|gust", name + core.start + at, core.length - at))
         return true;
-    if (fg__is_listed(SPEEDS, name + core.start, core.length))
+    if (fg__is_one_of(SPEEDS, name + core.start, core.length))
       return true;
   }
-  return synoptic_row(name, 1) >= 0;
+  return false;
 }
 
 void fg__polar_turn(double vector[2], const fg__polar *polar)
@@ -261,55 +256,69 @@ void fg__polar_turn(double vector[2], const fg__polar *polar)
   vector[1] = along * (polar->from_east ? sin(angle) : cos(angle));
 }
 
-/* Numbers that are not in the unit: radians of which most are beyond a turn, or degrees
- * that just fill a turn of radians. Numbers beyond two turns of degrees are codes. */
-static bool is_other_unit(double range[2], const float *angle, size_t count,
-                          const fg__polar *polar)
+void fg__angles_add(fg__angles *angles, double angle)
+{
+  const double rounding = 0.01;
+  if (!(fabs(angle) <= 720.0))
+    return;
+  if (angles->known == 0 || angle < angles->least)
+    angles->least = angle;
+  if (angles->known == 0 || angle > angles->most)
+    angles->most = angle;
+  angles->beyond += fabs(angle) > TURN + rounding;
+  ++angles->known;
+}
+
+/* Radians of which most are beyond a turn, or degrees that just fill a turn of radians.
+ */
+static bool are_of_other_unit(const fg__angles *a, const fg__polar *polar)
 {
   enum { FEWEST = 8 };
-  const double rounding = 0.01;
-  size_t known = 0, beyond = 0;
-  range[0] = range[1] = 0.0;
-  for (size_t n = 0; n < count; ++n) {
-    const double a = (double)angle[n];
-    if (!(fabs(a) <= 720.0))
-      continue;
-    range[0] = known == 0 || a < range[0] ? a : range[0];
-    range[1] = known == 0 || a > range[1] ? a : range[1];
-    beyond += fabs(a) > TURN + rounding;
-    ++known;
-  }
-  if (known < FEWEST)
+  const double rounding = 0.01, begin = a->least < -rounding ? -0.5 * TURN : 0.0;
+  if (a->known < FEWEST)
     return false;
-  if (polar->unit == 1.0)
-    return 2 * beyond > known;
-  const double least = range[0] < -rounding ? -0.5 * TURN : 0.0;
-  return range[1] - range[0] > 0.9 * TURN && range[0] >= least - rounding &&
-         range[1] <= least + TURN + rounding;
+  return polar->unit == 1.0
+             ? 2 * a->beyond > a->known
+             : a->most - a->least > 0.9 * TURN && a->least >= begin - rounding &&
+                   a->most <= begin + TURN + rounding;
+}
+
+fg_status fg__angles_check(const fg__angles *angles, fg_context *context,
+                           const fg__polar *polar, const char *path, const char *name)
+{
+  const bool radians = polar->unit == 1.0;
+  if (!are_of_other_unit(angles, polar))
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_FILE_FORMAT,
+           "%s: the direction '%.120s' is in %s, but its numbers, %g to %g, are %s", path,
+           name, radians ? "radians" : "degrees", angles->least, angles->most,
+           radians ? "degrees" : "radians");
+  fg__hint(context, "correct its units in the file");
+  return FG_STATUS_FILE_FORMAT;
 }
 
 fg_status fg__polar_turn_all(fg_context *context, float *const vector[2], size_t count,
                              const fg__polar *polar, const char *path, const char *name)
 {
-  double range[2];
-  const bool radians = polar->unit == 1.0;
+  fg__angles angles = {0};
   if (polar->sense == 0)
     return FG_STATUS_OK;
-  if (is_other_unit(range, vector[1], count, polar)) {
-    fg__fail(context, FG_STATUS_FILE_FORMAT,
-             "%s: the direction '%.120s' is in %s, but its numbers, %g to %g, are %s",
-             path, name, radians ? "radians" : "degrees", range[0], range[1],
-             radians ? "degrees" : "radians");
-    fg__hint(context, "correct its units in the file");
-    return FG_STATUS_FILE_FORMAT;
-  }
+  for (size_t n = 0; n < count; ++n)
+    fg__angles_add(&angles, (double)vector[1][n]);
   for (size_t n = 0; n < count; ++n) {
     double one[2] = {(double)vector[0][n], (double)vector[1][n]};
     fg__polar_turn(one, polar);
     vector[0][n] = (float)one[0];
     vector[1][n] = (float)one[1];
   }
-  return FG_STATUS_OK;
+  return fg__angles_check(&angles, context, polar, path, name);
+}
+
+void fg__direction_rule(char *out, size_t size, const fg__term *term)
+{
+  const char *standard = standard_name(term);
+  snprintf(out, size, "%s %.80s", standard[0] ? "standard_name" : "its name is",
+           standard[0] ? standard : fg__last_part(term->name));
 }
 
 void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char *rule)

@@ -32,10 +32,25 @@ bool fg__names_speed(const char *name);
  * missing or a code for that, as a length below 0 or a direction beyond two turns. */
 void fg__polar_turn(double vector[2], const fg__polar *polar);
 
-/* The same of whole arrays; components are left as they are. FILE_FORMAT: the directions
- * are not in the unit that they have by `term`, of the file `path`. */
+/* The numbers of directions, but codes beyond two turns of degrees. */
+typedef struct fg__angles {
+  double least, most;
+  size_t known, beyond; /* a turn of radians */
+} fg__angles;
+
+void fg__angles_add(fg__angles *angles, double angle);
+
+/* FILE_FORMAT: the numbers are not in the unit that direction `name` of the file has. */
+fg_status fg__angles_check(const fg__angles *angles, fg_context *context,
+                           const fg__polar *polar, const char *path, const char *name);
+
+/* fg__polar_turn and fg__angles_check of whole arrays; components are left as they are.
+ */
 fg_status fg__polar_turn_all(fg_context *context, float *const vector[2], size_t count,
                              const fg__polar *polar, const char *path, const char *name);
+
+/* What says that a term is a direction: "standard_name wind_from_direction". */
+void fg__direction_rule(char *out, size_t size, const fg__term *term);
 
 /* What a length and its direction are, and which rule says so. */
 void fg__polar_words(char *out, size_t size, const fg__polar *polar, const char *rule);

@@ -79,12 +79,12 @@ static bool contains(const char *text, size_t length, const char *word, size_t n
   return false;
 }
 
-bool fg__is_listed(const char *list, const char *text, size_t length)
+bool fg__is_one_of(const char *list, const char *text, size_t length)
 {
   return any_of(list, text, length, is_equal);
 }
 
-bool fg__starts_listed(const char *list, const char *text, size_t length)
+bool fg__starts_with_one_of(const char *list, const char *text, size_t length)
 {
   return any_of(list, text, length, starts);
 }
@@ -92,6 +92,12 @@ bool fg__starts_listed(const char *list, const char *text, size_t length)
 bool fg__contains_any(const char *text, const char *list)
 {
   return any_of(list, text, strlen(text), contains);
+}
+
+const char *fg__last_part(const char *name)
+{
+  const char *slash = strrchr(name, '/');
+  return slash ? slash + 1 : name;
 }
 
 static bool is_of_token(char c)

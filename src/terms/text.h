@@ -25,8 +25,11 @@ const char *fg__find_text(const char *text, const char *word);
 bool fg__contains_any(const char *text, const char *list);
 
 /* Whether `length` bytes are one of the words of a list, or begin with one. */
-bool fg__is_listed(const char *list, const char *text, size_t length);
-bool fg__starts_listed(const char *list, const char *text, size_t length);
+bool fg__is_one_of(const char *list, const char *text, size_t length);
+bool fg__starts_with_one_of(const char *list, const char *text, size_t length);
+
+/* What follows the last / of a name with groups, "ocean/u". */
+const char *fg__last_part(const char *name);
 
 /* Letters and digits of a name between other characters: "x", "wind" of "x-wind". */
 typedef struct fg__token {

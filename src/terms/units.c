@@ -65,8 +65,8 @@ static const unit_row *find_unit(const char *word)
   const size_t length = strlen(word);
   const bool plural = length > 2 && fg__small(word[length - 1]) == 's';
   for (size_t i = 0; i < sizeof UNITS / sizeof *UNITS; ++i)
-    if (fg__is_listed(UNITS[i].words, word, length) ||
-        (plural && fg__is_listed(UNITS[i].words, word, length - 1)))
+    if (fg__is_one_of(UNITS[i].words, word, length) ||
+        (plural && fg__is_one_of(UNITS[i].words, word, length - 1)))
       return &UNITS[i];
   return NULL;
 }
@@ -158,7 +158,7 @@ void fg__unit_read(fg__unit *out, const char *text)
   *out = (fg__unit){.quantity = FG__QUANTITY_UNKNOWN};
   snprintf(out->label, sizeof out->label, "%s", text);
   simplify(text, plain);
-  if (strstr(plain, " since ") || fg__is_same(text, FG__ABSOLUTE_DATE)) {
+  if (strstr(plain, " since ") || fg__is_same(text, FG__ABSOLUTE_DATES)) {
     out->quantity = FG__QUANTITY_DATE;
     return;
   }
@@ -181,7 +181,7 @@ fg__quantity fg__units_read(const char *text, char *label, size_t size)
   return unit.quantity;
 }
 
-bool fg__seconds_of(const char *text, double *out)
+bool fg__units_seconds(const char *text, double *out)
 {
   fg__unit unit;
   fg__unit_read(&unit, text);
@@ -217,5 +217,5 @@ bool fg__is_unit_in_name(const char *word)
   fg__unit_read(&unit, word);
   return unit.quantity == LENGTH || unit.quantity == FG__QUANTITY_DEGREES ||
          unit.quantity == SPEED || strchr(word, '/') != NULL ||
-         fg__is_listed("px|pix|pixel|pixels", word, strlen(word));
+         fg__is_one_of("px|pix|pixel|pixels", word, strlen(word));
 }

@@ -30,7 +30,7 @@ typedef struct fg__unit {
 } fg__unit;
 
 /* The other unit of dates, which CDI writes (ICON, ECHAM): the number 20200115.25. */
-#define FG__ABSOLUTE_DATE "day as %Y%m%d.%f"
+#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f"
 
 void fg__unit_read(fg__unit *out, const char *text);
 
@@ -38,7 +38,7 @@ void fg__unit_read(fg__unit *out, const char *text);
 fg__quantity fg__units_read(const char *text, char *label, size_t size);
 
 /* The seconds of a unit of time ("hours"); false for any other unit. */
-bool fg__seconds_of(const char *text, double *out);
+bool fg__units_seconds(const char *text, double *out);
 
 /* The factor from one unit to the other, in any case and number, "hPa" to "bar", "hours"
  * to "d"; from no unit 1. 0: they measure different things, or one is not known. */

@@ -8,16 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ranks; one more where plainer names are at the same points. */
-enum {
-  STANDARD_VELOCITY = 0,
-  NAMED_VELOCITY = 2,
-  SPEED_AND_DIRECTION = 4, /* where there are no components of a velocity */
-  STANDARD_OTHER = 6,
-  NAMED_OTHER = 8,
-  UPRIGHT = 10
-};
-
 typedef struct search {
   const fg__term *term;
   size_t terms;
@@ -135,10 +125,10 @@ static bool add_pair(search *s, const fg__pattern *x, const fg__pattern *y, int 
   const bool velocity = x->velocity && y->velocity;
   const fg__vector v = {.component = {(int)x->term, (int)y->term, third},
                         .found_by = x->standard ? "standard_name" : "names",
-                        .rank = x->standard
-                                    ? (x->velocity ? STANDARD_VELOCITY : STANDARD_OTHER)
-                                : velocity ? NAMED_VELOCITY
-                                           : NAMED_OTHER,
+                        .rank = x->standard ? (x->velocity ? FG__BY_STANDARD_VELOCITY
+                                                           : FG__BY_STANDARD_OTHER)
+                                : velocity  ? FG__BY_VELOCITY_NAMES
+                                            : FG__BY_OTHER_NAMES,
                         .is_indexed = fg__is_index(x),
                         .is_velocity = x->standard ? x->velocity : velocity};
   return add(s, &v);
@@ -173,7 +163,7 @@ static bool pair_components(search *s, const name_group *g, int a, int b)
                                              (int)all[y].term},
                                .is_upright = true,
                                .found_by = "names",
-                               .rank = UPRIGHT};
+                               .rank = FG__BY_UPRIGHT_NAMES};
       if (upright ? !add(s, &pair)
                   : !add_pair(s, &all[x], &all[y],
                               find_third(s, &all[x], &all[y], g->start[2], g->start[3])))
@@ -223,7 +213,7 @@ static bool pair_names(search *s)
 static bool pair_directions(search *s)
 {
   for (size_t i = 0; i < s->terms; ++i) {
-    fg__vector v = {.component = {-1, (int)i, -1}, .rank = SPEED_AND_DIRECTION};
+    fg__vector v = {.component = {-1, (int)i, -1}, .rank = FG__BY_SPEED_AND_DIRECTION};
     v.component[0] = fg__speed_of(&v.polar, s->term, s->terms, i);
     v.found_by =
         or_empty(s->term[i].standard_name)[0] ? "standard_name" : "speed and direction";
@@ -256,7 +246,7 @@ static void prefer_plain(search *s)
   for (size_t i = 0; i < s->count; ++i) {
     fg__vector *v = &s->vector[i];
     const int *c = v->component;
-    if (v->rank != NAMED_VELOCITY && v->rank != NAMED_OTHER)
+    if (v->rank != FG__BY_VELOCITY_NAMES && v->rank != FG__BY_OTHER_NAMES)
       continue;
     const int plain = fg__plainness(s->term[c[0]].name, s->term[c[1]].name);
     for (size_t k = 0; k < s->count && v->rank % 2 == 0; ++k) {
