@@ -79,6 +79,18 @@ static bool set_upright(fg__table_vector *v, const int velocity[3])
   return axes == 2;
 }
 
+/* Whether columns are those of places, and no others can be. */
+static bool are_taken(const fg__table_vector *v, const fg__table *table,
+                      const int velocity[3], int dimension)
+{
+  for (int k = 0; k < dimension; ++k)
+    for (int d = 0; d < 3; ++d)
+      if (velocity[k] == v->position[d] &&
+          (!table->placeless || fg__names_coordinate(table->column[velocity[k]].name)))
+        return true;
+  return false;
+}
+
 /* A vector in a plane or in space; false where its columns have another use. */
 static bool set_components(fg__table_vector *v, const fg__table *table,
                            const int velocity[3])
@@ -87,11 +99,13 @@ static bool set_components(fg__table_vector *v, const fg__table *table,
   if (!placed && !table->placeless)
     return false;
   v->dimension = velocity[2] >= 0 && (v->position[2] >= 0 || !placed) ? 3 : 2;
+  if (are_taken(v, table, velocity, v->dimension))
+    return false;
   for (int k = 0; k < v->dimension; ++k) {
     v->velocity[k] = velocity[k];
     for (int d = 0; d < 3; ++d)
-      if (velocity[k] == v->position[d])
-        return false;
+      if (velocity[k] == v->position[d]) /* px and py alone are a momentum */
+        v->position[0] = v->position[1] = v->position[2] = -1;
   }
   return true;
 }
