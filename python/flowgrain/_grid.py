@@ -20,8 +20,11 @@ class Grid:
     """
 
     def __init__(self, velocity: list[np.ndarray], axes: list[np.ndarray], periods: list[float],
-                 scale: str = "plain", places: Sequence[np.ndarray] = ()) -> None:
+                 scale: str = "plain", places: Sequence[np.ndarray] = (),
+                 circle: float = 0.0) -> None:
         self.velocity, self.axes, self.periods, self.scale = velocity, axes, periods, scale
+        #: after which x is the same place again, whether or not the axis goes round; 0: never
+        self.circle = circle
         #: where each of the user's samples lies, x, y(, z) of the user's shape
         self.places = list(places)
 
@@ -93,8 +96,9 @@ def make_grid(
     mask: Any = None,
     period: Any = None,
     scale: str = "plain",
+    circle: float = 0.0,
 ) -> Grid:
-    """Checks and orders what a user has given."""
+    """Checks and orders what a user has given; circle: that of `Grid`."""
     if scale not in SCALES:
         raise ValueError(f"scale is {scale!r}, not one of {', '.join(SCALES)}")
     names = "uvw"
@@ -118,10 +122,9 @@ def make_grid(
         axes = _reduced(axes, shape)
     if any(axis.ndim > 1 for axis in axes):
         return _curvilinear_grid(velocity, axes, periods, scale)
-    places = np.meshgrid(*axes[::-1], indexing="ij", sparse=True)[::-1]
-    grid = Grid(velocity, axes, periods, scale, list(places))
-    for k in range(dimension):
-        _order_axis(grid, k)
+    grid = Grid(velocity, axes, periods, scale, circle=circle or 360.0 * (scale == "geo"))
+    places = [_order_axis(grid, k) for k in range(dimension)]
+    grid.places = list(np.meshgrid(*places[::-1], indexing="ij", sparse=True)[::-1])
     grid.velocity = [np.ascontiguousarray(samples) for samples in grid.velocity]
     return grid
 
@@ -176,17 +179,73 @@ def _expanded(values: np.ndarray, k: int, dimension: int) -> np.ndarray:
     return np.expand_dims(values, [d for d in range(dimension) if d != dimension - 1 - k])
 
 
-def _order_axis(grid: Grid, k: int) -> None:
-    """Makes an axis ascend, and leaves out the sample that repeats the first a period later."""
-    axis, along = grid.axes[k], grid.dimension - 1 - k
-    if len(axis) > 1 and axis[0] > axis[-1]:
-        axis = axis[::-1]
-        grid.velocity = [np.flip(samples, along) for samples in grid.velocity]
-    period = grid.periods[k]
+# An interval is a gap where it is more than WIDE times as long as those beside it.
+WIDE = 4.0
+GAP_LINES = 8  # without a value, so that no line goes over a gap as over single missing samples
+
+
+def ordered(name: str, axis: np.ndarray, circle: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates along an axis, and the indices of its samples that make them ascend.
+
+    A descending axis is flipped. One that jumps back once and ends before it began, as longitudes
+    from 0 to 180 and then from -180 on, is rolled; where this leaves a wider gap, the part behind
+    the jump is a circle farther on. A last sample that repeats the first is left out. Any other
+    order is refused, and so are equal coordinates and those that are no numbers.
+    """
+    for i in np.flatnonzero(~np.isfinite(axis))[:1]:
+        raise ValueError(f"{name}[{i}] is {axis[i]:g}; an axis needs a number for each sample")
+    order = np.arange(len(axis))
+    if 2 * (np.diff(axis) < 0.0).sum() > len(axis) - 1:
+        order = order[::-1]
+    jumps = np.flatnonzero(np.diff(axis[order]) < 0.0) + 1
+    if len(jumps) == 1 and axis[order[-1]] <= axis[order[0]]:
+        before, behind = np.split(order, jumps)
+        if axis[order[-1]] == axis[order[0]]:
+            behind = behind[:-1]
+        onward = axis[behind[:1]] + circle - axis[before[-1]] if circle else np.inf
+        if len(behind) and axis[before[0]] - axis[behind[-1]] > 1.5 * onward > 0.0:
+            axis = axis.copy()
+            axis[behind] += circle
+            order = np.append(before, behind)
+        else:
+            order = np.append(behind, before)
+    for i in np.flatnonzero(~(np.diff(axis[order]) > 0.0))[:1]:
+        a, b = sorted(order[i:i + 2])
+        if axis[a] == axis[b]:
+            raise ValueError(f"{name}[{a}] and {name}[{b}] are both {axis[a]:.9g}; an axis needs "
+                             "other coordinates for each sample")
+        raise ValueError(
+            f"{name} neither ascends nor descends: {name}[{a}] is {axis[a]:.9g}, {name}[{b}] is "
+            f"{axis[b]:.9g}; sort it with its samples: np.argsort, or ds.sortby({name!r})")
+    return axis, order
+
+
+def _order_axis(grid: Grid, k: int) -> np.ndarray:
+    """Makes an axis ascend, and leaves out the sample that repeats the first a period later.
+
+    Returns the coordinates in the user's order.
+    """
+    along = grid.dimension - 1 - k
+    places, order = ordered("xyz"[k], grid.axes[k], 0.0 if k else grid.circle)
+    if len(order) < len(places):
+        for samples in grid.velocity:
+            first, last = samples.take([0, -1], along).swapaxes(0, along)
+            if not np.allclose(first, last, equal_nan=True):
+                raise ValueError(f"{'xyz'[k]}[0] and {'xyz'[k]}[{len(places) - 1}] are both "
+                                 f"{places[0]:.9g}, with other samples")
+    axis, period = places[order], grid.periods[k]
     if period and len(axis) > 2 and abs(axis[-1] - axis[0] - period) <= 1e-6 * period:
-        axis = axis[:-1]
-        grid.velocity = [samples.take(range(len(axis)), along) for samples in grid.velocity]
+        axis, order = axis[:-1], order[:-1]
+    grid.velocity = [samples.take(order, along) for samples in grid.velocity]
+    seam = np.flatnonzero(np.abs(np.diff(order)) > 1)[:1] + 1
+    if len(seam) and np.diff(axis)[seam - 1] > WIDE * np.median(np.diff(axis)):
+        # nothing is known between the ends of an axis that was rolled
+        inside = np.linspace(axis[seam - 1], axis[seam], GAP_LINES + 2)[1:-1, 0]
+        axis = np.insert(axis, seam[0], inside)
+        grid.velocity = [np.insert(samples, np.repeat(seam, GAP_LINES), np.nan, along)
+                         for samples in grid.velocity]
     grid.axes[k] = np.ascontiguousarray(axis)
+    return places
 
 
 # A raster is as fine as the samples, within these limits of nodes along its longer side.
@@ -302,10 +361,11 @@ def interpolate(grid: Grid, values: np.ndarray, x: np.ndarray, y: np.ndarray) ->
     for k, place in enumerate((x, y)):
         axis, period = grid.axes[k], grid.periods[k]
         place = np.where(outside, axis[0], place)
+        circle, slack = period or (0.0 if k else grid.circle), 1e-9 * (axis[-1] - axis[0])
+        if circle:
+            place = axis[0] - slack + np.mod(place - axis[0] + slack, circle)
         if period:
-            place = axis[0] + np.mod(place - axis[0], period)
             axis = np.append(axis, axis[0] + period)
-        slack = 1e-9 * (axis[-1] - axis[0])
         outside |= (place < axis[0] - slack) | (place > axis[-1] + slack)
         low = np.clip(np.searchsorted(axis, place, "right") - 1, 0, len(axis) - 2)
         index.append((low, (low + 1) % len(grid.axes[k])))

@@ -37,8 +37,10 @@ class TransformPlane:
     def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
         return _axes_of(x, y, shape)
 
-    def period(self, x: np.ndarray, count: int) -> float | None:
-        return 2.0 * np.pi if self._ax.name == "polar" and _closes(x, 2.0 * np.pi) else None
+    @property
+    def circle(self) -> float:
+        """After which x is the same place again; 0: never."""
+        return 2.0 * np.pi if self._ax.name == "polar" else 0.0
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Places, (n, 2); NaN where there are none."""
@@ -83,8 +85,9 @@ class CrsPlane:
     def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
         return _axes_of(x, y, shape)
 
-    def period(self, x: np.ndarray, count: int) -> float | None:
-        return 360.0 if self.is_geographic and _closes(x, 360.0) else None
+    @property
+    def circle(self) -> float:
+        return 360.0 if self.is_geographic else 0.0
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         plane = self._ax.projection.transform_points(self._crs, np.asarray(x), np.asarray(y))
@@ -141,11 +144,13 @@ def _finite(places: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(places).all(-1, keepdims=True), places, np.nan)
 
 
-def _closes(x: np.ndarray, period: float) -> bool:
-    """Whether an axis goes once round."""
-    way = abs(x[-1] - x[0])
+def period_of(x: np.ndarray, circle: float) -> float | None:
+    """The circle where an axis, in any order, goes once round it."""
+    x = np.unique(x)
+    way = x[-1] - x[0]
     step = way / max(len(x) - 1, 1)
-    return bool(abs(way + step - period) < 0.01 * step or abs(way - period) < 0.01 * step)
+    closes = abs(way + step - circle) < 0.01 * step or abs(way - circle) < 0.01 * step
+    return circle if circle and closes else None
 
 
 def _axes_of(x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:

@@ -17,7 +17,7 @@ from matplotlib.transforms import Bbox, IdentityTransform, Transform
 from ._arrows import GALE, Arrows, _choice, _whole, line_outline, place
 from ._grid import (Grid, interpolate, make_grid, real_array, resample_triangles, thinned,
                     velocity_array)
-from ._plane import CrsPlane, TransformPlane
+from ._plane import CrsPlane, TransformPlane, period_of
 
 #: the program's default palette: slow is light, fast is dark, all stand out from white
 gale = LinearSegmentedColormap.from_list("gale", GALE)
@@ -84,8 +84,7 @@ class Quiver(PatchCollection):
                     samples[np.ma.filled(np.ma.asanyarray(self._mask), True).astype(bool)] = np.nan
             self._velocity = [samples.astype(np.float64) for samples in velocity]
         else:
-            grid = make_grid([u, v], axes, self._mask, self._plane.period(axes[0], shape[1]))
-            self._grid = grid
+            self._grid = grid = self._on_axes([u, v], axes, self._mask)
             self._velocity = [samples.astype(np.float64) for samples in grid.velocity]
         speed = np.hypot(*self._velocity)
         if not (speed > 0.0).any():
@@ -97,9 +96,12 @@ class Quiver(PatchCollection):
             if values.shape != shape:
                 raise ValueError(f"C has the shape {values.shape}, but U has {shape}")
             if axes is not None:  # in the same order as the velocity
-                values = make_grid([values, values], axes, None,
-                                   self._plane.period(axes[0], shape[1])).velocity[0]
+                values = self._on_axes([values, values], axes, None).velocity[0]
             self._values = self._c = np.asarray(values, np.float64)
+
+    def _on_axes(self, components: list[Any], axes: Any, mask: Any) -> Grid:
+        circle = self._plane.circle
+        return make_grid(components, axes, mask, period_of(axes[0], circle), circle=circle)
 
     # Arrows are placed on a page that the axes' box fills, of one size and of rounded proportions:
     # neither resolution nor a layout that differs by parts of a pixel gives others. All that is

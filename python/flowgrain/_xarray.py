@@ -11,7 +11,8 @@ import xarray as xr
 from ._arrows import Arrows, _choice, arrows
 from ._dataset import find_coordinates, find_pair, role_of
 from ._model import FRAMES, centred, frame_of, positions, turned
-from ._plane import _closes
+from ._grid import ordered
+from ._plane import period_of
 
 
 class _Field(NamedTuple):
@@ -54,6 +55,9 @@ class DatasetFlowgrain:
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
                              f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
+        for axis, circle in ((px, 360.0 * degrees), (py, 0.0)):
+            if axis.ndim == 1 and axis.dtype.kind in "iuf":
+                ordered(str(axis.name), axis.values, circle)  # refuses by its name
         others = [d for d in first.dims if d not in plane]
         if px.ndim == 2:
             px, py = px.transpose(*plane), py.transpose(*plane)
@@ -126,8 +130,8 @@ class DatasetFlowgrain:
         first, second, px, py, degrees, others = self._field(u, v, x, y, frame)
         if degrees:
             options.setdefault("scale", "geo")
-            if px.ndim == 1 and _closes(px.values, 360.0):
-                options.setdefault("period", 360.0)
+            if px.ndim == 1:
+                options.setdefault("period", period_of(px.values, 360.0))
         found = np.empty([first.sizes[d] for d in others], object)
         for index in np.ndindex(*found.shape):
             found[index] = arrows(first[index].values, second[index].values, px.values, py.values,

@@ -17,6 +17,13 @@ from conftest import vortices
 PROGRAM = os.environ.get("FLOWGRAIN_PROGRAM")
 
 
+def moved(count, at, to):
+    """An axis with a sample elsewhere."""
+    axis = np.arange(float(count))
+    axis[at] = to
+    return axis
+
+
 def same(one, other):
     return len(one) == len(other) and all(map(np.array_equal, one.paths, other.paths))
 
@@ -80,6 +87,66 @@ def test_any_type_and_order_of_samples(field, dozen):
     whole = np.rint(u * 20).astype(np.int8), np.rint(v * 20).astype(np.int8)
     floats = [c.astype(np.float32) for c in whole]
     assert same(flowgrain.arrows(*whole, n=5), flowgrain.arrows(*floats, n=5))
+
+
+@pytest.mark.parametrize("k", [0, 1])
+@pytest.mark.parametrize("way", [1, -1])
+def test_axes_that_begin_within_are_rolled(field, dozen, k, way):
+    u, v, x, y = field
+    axes = [x, y]
+    axes[k] = np.roll(axes[k], 17)[::way]
+    u, v = (np.flip(c, 1 - k) if way < 0 else c for c in (np.roll(c, 17, 1 - k) for c in (u, v)))
+    found = flowgrain.arrows(u, v, *axes, n=12)
+    assert same(dozen, found)
+    labels = np.flip(found.labels, 1 - k) if way < 0 else found.labels
+    assert np.array_equal(labels, np.roll(dozen.labels, 17, 1 - k))
+    assert same(dozen, flowgrain.arrows(u, v, *np.meshgrid(*axes), n=12))
+
+
+def test_axes_of_a_volume_are_ordered():
+    axis = np.linspace(0.0, 1.0, 9)
+    z, y, x = np.meshgrid(axis, axis, axis, indexing="ij")
+    u, v, w = 0.5 - y, x - 0.5, 0.1 + 0.2 * z
+    plain = flowgrain.arrows(u, v, axis, axis, w=w, z=axis, n=3, nodes=9)
+    u, v, w = (np.roll(c[:, :, ::-1], 4, 0) for c in (u, v, w))
+    assert same(plain, flowgrain.arrows(u, v, axis[::-1], axis, w=w, z=np.roll(axis, 4), n=3,
+                                        nodes=9))
+    with pytest.raises(ValueError, match=r"z\[2\] is nan"):
+        flowgrain.arrows(u, v, axis, axis, w=w, z=moved(9, 2, np.nan))
+
+
+def globe(longitude):
+    """A wind, (ny, nx), and its latitudes."""
+    latitude = np.arange(-60.0, 61.0, 5.0)
+    lon, lat = np.meshgrid(np.radians(longitude), np.radians(latitude))
+    return 10.0 * np.cos(lat) + 2.0 * np.sin(lon), 3.0 * np.sin(3.0 * lon), latitude
+
+
+@pytest.mark.parametrize("east", [360.0, 355.0])  # with the first meridian twice, or once
+@pytest.mark.parametrize("break_at", [180.0, 175.0, 90.0])
+def test_longitudes_of_any_half(east, break_at):
+    longitude = np.arange(0.0, east + 1.0, 5.0)
+    u, v, latitude = globe(longitude)
+    turned = np.where(longitude > break_at, longitude - 360.0, longitude)
+    options = {"n": 10, "period": 360, "scale": "geo"}
+    found = flowgrain.arrows(u, v, turned, latitude, **options)
+    order = np.unique(turned, return_index=True)[1]
+    assert same(found, flowgrain.arrows(u[:, order], v[:, order], turned[order], latitude, **options))
+    assert found.labels.shape == u.shape
+
+
+def test_a_region_across_the_antimeridian():
+    """Longitudes go on where they are known as such; else nothing is drawn where there is none."""
+    longitude = np.arange(100.0, 261.0, 5.0)
+    u, v, latitude = globe(longitude)
+    turned = np.where(longitude > 180.0, longitude - 360.0, longitude)
+    geo = flowgrain.arrows(u, v, turned, latitude, n=10, scale="geo")
+    assert same(geo, flowgrain.arrows(u, v, longitude, latitude, n=10, scale="geo"))
+    assert geo.bounds[0].tolist() == [100.0, 260.0]
+    assert set(np.unique(geo.labels)) >= set(range(1, geo.counts.clusters + 1))
+    plain = flowgrain.arrows(u, v, turned, latitude, n=10)
+    for path in plain.paths:
+        assert (path[:, 0] < -100.0 + 1e-6).all() or (path[:, 0] > 100.0 - 1e-6).all()
 
 
 def test_missing_samples_are_avoided(field):
@@ -197,7 +264,15 @@ def test_sequence(dozen):
     ({"u": np.zeros((49, 65), complex)}, "complex"),
     ({"u": np.full((49, 65), 1e300)}, "fill value"),
     ({"x": np.zeros(7)}, r"x has the shape \(7,\)"),
-    ({"x": np.zeros(65)}, "does not ascend"),
+    ({"x": np.zeros(65)}, r"x\[0\] and x\[1\] are both 0"),
+    ({"x": moved(65, 7, np.nan)}, r"x\[7\] is nan"),
+    ({"y": moved(49, 48, np.inf)}, r"y\[48\] is inf"),
+    ({"y": moved(49, 9, 8.0)}, r"y\[8\] and y\[9\] are both 8"),
+    ({"y": moved(49, 9, 8.0)[::-1]}, r"y\[39\] and y\[40\] are both 8"),
+    ({"x": moved(65, 9, 30.0)}, r"x neither ascends nor descends: x\[9\] is 30, x\[10\] is 10; .*"
+                                r"ds.sortby\('x'\)"),
+    ({"x": np.arange(65) % 20}, "x neither ascends nor descends"),
+    ({"x": np.append(np.arange(40, 72) % 64, np.arange(8, 41))}, "both 40, with other samples"),
     ({"x": np.array(["a"] * 65)}, "numbers are needed"),
     ({"mask": np.zeros((3, 3))}, "mask has the shape"),
     ({"mask": np.ones((49, 65))}, "valid|missing"),

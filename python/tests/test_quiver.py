@@ -64,6 +64,20 @@ def test_logarithmic_axes_begin_at_positive_coordinates(ax):
         assert rise == pytest.approx(np.full(len(rise), 0.3), rel=0.2)
 
 
+def test_axes_in_any_order(ax, field):
+    u, v, x, y = field
+    sorted_ = lines(flowgrain.quiver(ax, x, y, u, v, u, arrows=9))
+    for roll, flip in ((20, 1), (20, -1)):
+        def moved(a, roll=roll, flip=flip):
+            return np.roll(a, roll, -1)[..., ::flip]
+
+        q = flowgrain.quiver(ax, moved(x), y, moved(u), moved(v), moved(u), arrows=9)
+        assert alike(sorted_, lines(q)) and len(q.get_array()) == 9
+    x = np.where(x > 4.0, np.nan, x)
+    with pytest.raises(ValueError, match=r"x\[25\] is nan"):
+        flowgrain.quiver(ax, x, y, u, v)
+
+
 def test_uv_is_along_the_page(ax):
     ax.set_xlim(0, 1000)
     ax.set_ylim(1, 0)
@@ -340,6 +354,27 @@ class TestMaps:
             if radius.min() > 1.5e6:
                 assert np.ptp(radius) < 0.02 * radius.mean()
                 assert line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0] > 0.0
+
+    @pytest.mark.parametrize("first, last", [(0.0, 355.0), (100.0, 260.0), (-250.0, -80.0)])
+    def test_longitudes_of_any_half(self, first, last):
+        """Of the globe or a region; the map's own are others again."""
+        longitude, latitude = np.arange(first, last + 1.0, 5.0), np.arange(-60.0, 61.0, 5.0)
+        lon, lat = np.meshgrid(np.radians(longitude), np.radians(latitude))
+        u, v = 10.0 * np.cos(lat), 5.0 * np.sin(3.0 * lon)
+        found = []
+        for given in (longitude, (longitude + 180.0) % 360.0 - 180.0, longitude % 360.0):
+            figure = plt.figure()
+            ax = figure.add_subplot(projection=self.ccrs.PlateCarree(180.0))
+            ax.set_global()
+            q = flowgrain.quiver(ax, given, latitude, u, v, arrows=12,
+                                 transform=self.ccrs.PlateCarree())
+            found.append(lines(q))
+            plt.close(figure)
+        assert len(found[0]) == 12 and alike(found[0], found[1]) and alike(found[0], found[2])
+        east = np.concatenate(found[0])[:, 0] % 360.0  # in degrees from 180 E
+        width = (last - first) % 360.0
+        assert ((east + 180.0 - first) % 360.0 < width + 5.0).all()
+        assert np.ptp((east + 180.0 - first) % 360.0) > 0.8 * width
 
     def test_flow_crosses_the_pole_and_the_cut(self, polar):
         """Arrows lie on the small circles about the axis of a rotation."""
