@@ -179,8 +179,9 @@ def _expanded(values: np.ndarray, k: int, dimension: int) -> np.ndarray:
     return np.expand_dims(values, [d for d in range(dimension) if d != dimension - 1 - k])
 
 
-# An interval is a gap where it is more than WIDE times as long as those beside it.
-WIDE = 4.0
+# A gap is more than WIDE times as long as the median interval up to BESIDE from it: three lines of
+# an even grid may be left out, for their interval of 4 is rounded.
+WIDE, BESIDE = 4.5, 3
 GAP_LINES = 8  # without a value, so that no line goes over a gap as over single missing samples
 
 
@@ -260,7 +261,7 @@ def _curvilinear_grid(
         raise ValueError("in 3D x, y and z must be axes, arrays of one dimension each")
     if any(periods):
         raise ValueError("a period needs coordinates along the axes, x of shape (nx,) and y (ny,)")
-    x, y = places
+    x, y = places = [in_one_piece(places[0]) if scale == "geo" else places[0], places[1]]
     good = np.isfinite(x) & np.isfinite(y)
     if not good.any():
         raise ValueError("x and y have no sample where both are numbers")
@@ -276,9 +277,11 @@ def _curvilinear_grid(
     for start, length in zip(low, extent):
         axes.append(np.linspace(start, start + length, max(int(np.ceil(length / spacing)) + 1, 2)))
     thin = thinned([x, y, *velocity], MOST * MOST)
-    # longitudes that jump by a turn between neighbours: these are none
-    widest = 0.5 * extent[0] if min(x.shape) > 8 else np.inf
-    raster = resample_triangles(thin[0], thin[1], thin[2:], axes, widest)
+    if scale == "geo":  # cells where longitudes jump by a turn are none
+        whole, widest = over_no_gap(on_sphere(*thin[:2])), 180.0
+    else:
+        whole, widest = over_no_gap(thin[:2]), np.inf
+    raster = resample_triangles(thin[0], thin[1], thin[2:], axes, whole, widest)
     grid = Grid([np.ascontiguousarray(r, np.float32) for r in raster], axes, periods, scale)
     grid.places = places
     return grid
@@ -292,14 +295,62 @@ def thinned(arrays: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
     return [a[np.ix_(*kept)] for a in arrays] if every > 1 else list(arrays)
 
 
+def in_one_piece(longitude: np.ndarray) -> np.ndarray:
+    """Longitudes of a region that begin behind the widest gap between them, so that those on both
+    sides of the antimeridian hang together. Without a gap of 30 degrees they stay as they are."""
+    known = np.unique(longitude[np.isfinite(longitude)])
+    if not len(known) or known[-1] - known[0] > 360.0:
+        return longitude
+    gaps = np.diff(known, append=known[0] + 360.0)
+    if gaps.max() < 30.0 or gaps[-1] == gaps.max():
+        return longitude
+    return np.where(longitude <= known[gaps.argmax()], longitude + 360.0, longitude)
+
+
+def on_sphere(longitude: np.ndarray, latitude: np.ndarray) -> np.ndarray:
+    """Unit vectors, (3, ny, nx), of degrees."""
+    lon, lat = np.radians(longitude), np.radians(latitude)
+    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)])
+
+
+def over_no_gap(places: Sequence[np.ndarray]) -> np.ndarray:
+    """Which cells, (ny - 1, nx - 1), of a curvilinear grid lie where it was sampled.
+
+    An edge between neighbours along a line of the grid goes over a gap where it is more than WIDE
+    times as long as the median of the edges of that line that are at most BESIDE away, itself among
+    them; the larger one of two in the middle. Edges without a length, and those with an end that is
+    not known, do not count. A cell is over a gap where one of its four edges goes over one. So
+    neighbours across a gap between swaths, or a jump of longitudes, are none; up to three lines may
+    be left out of an even grid; spacings may change anywhere, at once too, since from there on they
+    are those of half the edges.
+
+    Parameters
+    ----------
+    places : coordinates, each (ny, nx), of the plane in which gaps are seen, or of the sphere
+    """
+    whole = np.ones([n - 1 for n in places[0].shape], bool)
+    for along in (0, 1):
+        steps = [np.moveaxis(np.diff(a, axis=along), along, -1) for a in places]
+        length = np.sqrt(sum(step * step for step in steps))
+        known = np.pad(np.where(length > 0.0, length, np.nan), ((0, 0), (BESIDE, BESIDE)),
+                       constant_values=np.nan)
+        near = np.sort(np.lib.stride_tricks.sliding_window_view(known, 2 * BESIDE + 1, 1), -1)
+        middle = np.isfinite(near).sum(-1, keepdims=True) // 2  # numbers come before NaN
+        gap = length > WIDE * np.take_along_axis(near, middle, -1)[..., 0]
+        beside = gap[1:] | gap[:-1]
+        whole &= ~(beside if along else beside.T)
+    return whole
+
+
 def resample_triangles(
     x: np.ndarray, y: np.ndarray, values: Sequence[np.ndarray], axes: Sequence[np.ndarray],
-    widest: float = np.inf,
+    cells: np.ndarray, widest: float,
 ) -> list[np.ndarray]:
     """Samples of a curvilinear grid at the nodes of an even raster.
 
-    Each cell of the grid is cut in two triangles, unless it is wider along x than `widest`; nodes
-    in a triangle get what is linear between its corners, others NaN.
+    Each of the cells that are to count, (ny - 1, nx - 1), is cut in two triangles, unless these are
+    wider along x than `widest`; nodes in a triangle get what is linear between its corners, others
+    NaN.
     """
     number = np.arange(x.size).reshape(x.shape)
     a, b = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
@@ -307,7 +358,7 @@ def resample_triangles(
     corners = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
     px, py = x.ravel()[corners], y.ravel()[corners]
     samples = [v.ravel()[corners].astype(np.float64) for v in values]
-    whole = np.isfinite(px).all(1) & np.isfinite(py).all(1)
+    whole = np.tile(cells.ravel(), 2) & np.isfinite(px).all(1) & np.isfinite(py).all(1)
     whole &= px.max(1) - px.min(1) <= widest
     for s in samples:
         whole &= np.isfinite(s).all(1)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ._grid import _coordinate, _reduced
+from ._grid import _coordinate, _reduced, on_sphere
 
 
 class TransformPlane:
@@ -52,6 +52,10 @@ class TransformPlane:
         with np.errstate(all="ignore"):
             x, y = np.ma.filled(self._to_axes.inverted().transform(places), np.nan).T
         return x, y
+
+    def space(self, x: np.ndarray, y: np.ndarray, page: np.ndarray) -> Any:
+        """Coordinates in which neighbours are close to each other: those on the page."""
+        return np.moveaxis(page, -1, 0)
 
     def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
              page: np.ndarray) -> list[np.ndarray]:
@@ -107,6 +111,10 @@ class CrsPlane:
         """Corners of the map's own extent."""
         (left, right), (low, high) = self._ax.projection.x_limits, self._ax.projection.y_limits
         return self._to_axes.transform([(left, low), (right, high)])
+
+    def space(self, x: np.ndarray, y: np.ndarray, page: np.ndarray) -> Any:
+        """As that of TransformPlane: those on the sphere, or of the CRS."""
+        return on_sphere(x, y) if self.is_geographic else [x, y]
 
     def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
              page: np.ndarray) -> list[np.ndarray]:

@@ -15,8 +15,8 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox, IdentityTransform, Transform
 
 from ._arrows import GALE, Arrows, _choice, _whole, line_outline, place
-from ._grid import (Grid, interpolate, make_grid, real_array, resample_triangles, thinned,
-                    velocity_array)
+from ._grid import (Grid, interpolate, make_grid, over_no_gap, real_array, resample_triangles,
+                    thinned, velocity_array)
 from ._plane import CrsPlane, TransformPlane, period_of
 
 #: the program's default palette: slow is light, fast is dark, all stand out from white
@@ -170,10 +170,10 @@ class Quiver(PatchCollection):
         x, y, u, v = thinned([x, y, *self._velocity], MOST_SAMPLES)
         velocity = self._plane.turn(x, y, u, v, self._page) if self._along_axes else [u, v]
         places = self._to_page(self._plane.forward(x.ravel(), y.ravel())).reshape(*x.shape, 2)
+        whole = over_no_gap(self._plane.space(x, y, places))
         # neighbours on either side of a map's cut are none
-        widest = 0.5 * self._page[0]
-        return resample_triangles(places[..., 0], places[..., 1], velocity, axes,
-                                  widest if self._plane.fills_outline else np.inf)
+        widest = 0.5 * self._page[0] if self._plane.fills_outline else np.inf
+        return resample_triangles(places[..., 0], places[..., 1], velocity, axes, whole, widest)
 
     def _update(self) -> None:
         """Places the arrows, unless they are placed for what the axes show."""

@@ -11,7 +11,7 @@ import xarray as xr
 from ._arrows import Arrows, _choice, arrows
 from ._dataset import find_coordinates, find_pair, role_of
 from ._model import FRAMES, centred, frame_of, positions, turned
-from ._grid import ordered
+from ._grid import in_one_piece, ordered
 from ._plane import period_of
 
 
@@ -55,9 +55,11 @@ class DatasetFlowgrain:
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
                              f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
-        for axis, circle in ((px, 360.0 * degrees), (py, 0.0)):
+        for name, axis in (("x", px), ("y", py)):
             if axis.ndim == 1 and axis.dtype.kind in "iuf":
-                ordered(str(axis.name), axis.values, circle)  # refuses by its name
+                ordered(str(axis.name), axis.values)  # refuses by its name
+        if degrees:
+            px = px.copy(data=in_one_piece(px.values))
         others = [d for d in first.dims if d not in plane]
         if px.ndim == 2:
             px, py = px.transpose(*plane), py.transpose(*plane)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import flowgrain
-from conftest import vortices
+from conftest import is_land, ocean, vortices
 
 PROGRAM = os.environ.get("FLOWGRAIN_PROGRAM")
 
@@ -190,6 +190,68 @@ def test_uneven_and_curvilinear_coordinates():
         distance = np.hypot(*path.T)
         assert np.ptp(distance) < 0.02 and 0.5 < distance.mean() < 1.5
     assert ring.labels.shape == px.shape
+
+
+def lattice(*steps):
+    """Places of a grid, turned by 0.5, whose columns and rows are so far apart."""
+    x, y = np.meshgrid(*(np.append(0.0, np.cumsum(step)) for step in steps))
+    return [np.cos(0.5) * x - np.sin(0.5) * y, np.sin(0.5) * x + np.cos(0.5) * y]
+
+
+ROWS = [1.0] * 12
+
+
+@pytest.mark.parametrize("columns, gaps", [
+    ([1.0] * 20, []),
+    ([1.0] * 9 + [33.0] + [1.0] * 9, [9]),  # between two swaths
+    ([1.0] * 9 + [4.0] + [1.0] * 9, []),  # three columns left out
+    ([1.0] * 9 + [5.0] + [1.0] * 9, [9]),
+    ([1.0] * 4 + [7.0, 6.0] + [1.0] * 4, [4, 5]),  # one column between two gaps
+    ([1.0] * 9 + [30.0], [9]),
+    ([0.01] * 9 + [1.0] * 9, []),  # a finer part
+    ([1e-6 * 1.9 ** n for n in range(20)], []),  # a boundary layer
+    ([0.0, 0.0, 0.3] * 7, []),  # places rounded to few figures
+    ([1.0], []), ([1.0, 9.0], []),
+])
+def test_gaps_of_a_curvilinear_grid(columns, gaps):
+    from flowgrain._grid import over_no_gap
+
+    expected = ~np.isin(np.arange(len(columns)), gaps)
+    for k in (1, -1):
+        found = over_no_gap(lattice(columns[::k], ROWS))
+        assert np.array_equal(found, np.tile(expected[::k], (12, 1)))
+        assert np.array_equal(over_no_gap(lattice(ROWS, columns[::k])), found.T)
+    x, y = lattice(columns, ROWS)
+    x[5, 0] = np.nan  # not known: no edge
+    assert np.array_equal(over_no_gap([x, y]), np.tile(expected, (12, 1)))
+
+
+@pytest.mark.parametrize("scale, east", [("plain", 180.0), ("plain", 360.0), ("geo", 180.0)])
+def test_global_curvilinear_grids_end_at_their_seam(scale, east):
+    lon, lat, land, u, v = ocean(east)
+    found = flowgrain.arrows(u, v, lon, lat, mask=land, scale=scale, n=40)
+    assert found.bounds[0] == pytest.approx((east - 360.0, east), abs=2.0)
+    assert not any(is_land(*path.T).any() for path in found.paths)
+    # along the flow there
+    for path in found.paths:
+        a, b = np.radians(0.5 * (path[1:] + path[:-1])).T
+        there = np.cos(b) * np.cos(3 * a) + 0.4 * np.sin(2 * b), np.cos(b) * np.sin(2 * a)
+        across = np.cos(b) if scale == "geo" else 1.0
+        way = np.diff(path[:, 0]) * across, np.diff(path[:, 1])
+        cosine = (way[0] * there[0] + way[1] * there[1]) / np.hypot(*way) / np.hypot(*there)
+        assert np.median(cosine) > 0.97
+
+
+@pytest.mark.parametrize("wrap", [False, True])
+def test_nothing_is_drawn_between_swaths(wrap):
+    across = np.append(np.linspace(-9.0, -4.0, 21), np.linspace(4.0, 9.0, 21))
+    lon, lat = np.meshgrid(175.0 + across, np.linspace(-18.0, 18.0, 150))
+    lon = lon + 0.15 * lat
+    given = (lon + 180.0) % 360.0 - 180.0 if wrap else lon
+    found = flowgrain.arrows(8.0 + 0.0 * lon, np.sin(0.1 * lat), given, lat, n=30, scale="geo")
+    assert found.bounds[0] == pytest.approx((lon.min(), lon.max()))
+    off = np.concatenate([path[:, 0] - 0.15 * path[:, 1] for path in found.paths]) - 175.0
+    assert (np.abs(off) > 3.9).all() and off.min() < -5.0 and off.max() > 5.0
 
 
 def test_periodic_longitude_and_geojson():

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import flowgrain
-from conftest import vortices
+from conftest import is_land, ocean, vortices
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("agg")
@@ -246,6 +246,34 @@ def test_curvilinear_and_polar(ax):
     assert len(q.get_paths()) == 12
     for line in lines(q):
         assert np.ptp(line[:, 1]) < 0.01  # round the pole, also across theta = 0
+    plt.close(figure)
+
+
+@pytest.mark.parametrize("east", [180.0, 360.0])
+def test_global_curvilinear_grids_end_at_their_seam(ax, east):
+    lon, lat, land, u, v = ocean(east)
+    q = flowgrain.quiver(ax, lon, lat, u, v, arrows=40, mask=land)
+    assert len(lines(q)) == 40
+    assert not any(is_land(*line.T).any() for line in lines(q))
+    assert np.ptp(np.concatenate(lines(q))[:, 0]) > 320.0
+
+
+def test_nothing_is_drawn_over_gaps(ax):
+    """Between swaths, in a view of one of them, too; but round the pole of polar axes."""
+    across = np.append(np.linspace(-9.0, -4.0, 21), np.linspace(4.0, 9.0, 21))
+    x, y = np.meshgrid(across, np.linspace(-18.0, 18.0, 150))
+    x = x + 0.15 * y
+    q = flowgrain.quiver(ax, x, y, 8.0 + 0.0 * x, np.sin(y), arrows=30)
+    for view in ((-12, 12), (-3, 12)):
+        ax.set_xlim(view)
+        off = np.concatenate([line[:, 0] - 0.15 * line[:, 1] for line in lines(q)])
+        assert len(lines(q)) == 30 and (np.abs(off) > 3.8).all()
+    figure = plt.figure()
+    polar = figure.add_subplot(projection="polar")
+    theta, r = np.meshgrid(np.linspace(0.0, 2.0 * np.pi, 73), np.linspace(0.2, 1.0, 17))
+    theta = (theta + 0.3 * r) % (2.0 * np.pi)
+    q = flowgrain.quiver(polar, theta, r, np.ones((17, 73)), np.zeros((17, 73)), arrows=12)
+    assert any((np.abs(np.diff(line[:, 0] % (2.0 * np.pi))) > 6.0).any() for line in lines(q))
     plt.close(figure)
 
 
