@@ -129,6 +129,22 @@ def make_grid(
     return grid
 
 
+def mesh_rank(x: Any, y: Any) -> int:
+    """Whether two arrays, (..., ny, nx), can be coordinates of a grid: 2, as `numpy.meshgrid` makes
+    them, in either indexing; 1, almost all cells have one orientation; 0, they are folded."""
+    x, y = real_array("x", x), real_array("y", y)
+    if x.shape != y.shape or x.ndim < 2 or min(x.shape) < 2:
+        return 0
+    x, y = (a.reshape(-1, *a.shape[-2:])[0] for a in (x, y))
+    for a, b in ((x, y), (x.T, y.T)):
+        if (a == a[0]).all() and (b.T == b[:, 0]).all():
+            return 2 * (len(np.unique(a[0])) == a.shape[1] and len(np.unique(b[:, 0])) == len(b))
+    (a, b), (c, d) = ((p[1:, 1:] - p[:-1, :-1], p[1:, :-1] - p[:-1, 1:]) for p in (x, y))
+    area = a * d - b * c
+    known = np.isfinite(area).sum()
+    return int(max((area > 0.0).sum(), (area < 0.0).sum()) > 0.9 * known)
+
+
 def _periods(period: Any, dimension: int) -> list[float]:
     if period is None:
         return [0.0] * dimension

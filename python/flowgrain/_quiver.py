@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox, IdentityTransform, Transform
 
 from ._arrows import GALE, Arrows, _choice, _whole, line_outline, place
-from ._grid import (Grid, interpolate, make_grid, over_no_gap, real_array, resample_triangles,
-                    thinned, velocity_array)
+from ._grid import (Grid, interpolate, make_grid, mesh_rank, over_no_gap, real_array,
+                    resample_triangles, thinned, velocity_array)
 from ._plane import CrsPlane, TransformPlane, period_of
 
 #: the program's default palette: slow is light, fast is dark, all stand out from white
@@ -347,8 +348,15 @@ def _arguments(ax: Any, args: tuple[Any, ...]) -> tuple[Any, Any, Any, Any, Any]
     u, v = args[-3:-1] if c is not None else args[-2:]
     shape = np.ma.asanyarray(u).shape
     if len(shape) != 2:
-        raise ValueError(f"U has the shape {shape}; (ny, nx) is needed")
+        raise ValueError(f"U has the shape {shape}; (ny, nx) is needed, in the order "
+                         "X, Y, U, V")
     x, y = args[:2] if len(args) > 3 else (np.arange(shape[1]), np.arange(shape[0]))
+    if np.ndim(x) == 2 and mesh_rank(u, v) > mesh_rank(x, y):
+        if not mesh_rank(x, y):
+            raise ValueError("X and Y are folded, as coordinates never are, and U and V may be "
+                             "coordinates: the order is X, Y, U, V")
+        warnings.warn("U and V are those of a mesh grid, X and Y are not: the order is X, Y, U, V",
+                      stacklevel=4)
     ax.xaxis.update_units(x)  # dates, say
     ax.yaxis.update_units(y)
     x, y = ax.convert_xunits(x), ax.convert_yunits(y)

@@ -136,8 +136,8 @@ class DatasetFlowgrain:
                 options.setdefault("period", period_of(px.values, 360.0))
         found = np.empty([first.sizes[d] for d in others], object)
         for index in np.ndindex(*found.shape):
-            found[index] = arrows(first[index].values, second[index].values, px.values, py.values,
-                                  **options)
+            found[index] = arrows(px.values, py.values, u=first[index].values,
+                                  v=second[index].values, **options)
         if found.size == 1:
             return found.reshape(-1)[0]
         kept = {k: c for k, c in first.coords.items() if set(c.dims) <= set(others)}

@@ -1,4 +1,5 @@
 import concurrent.futures
+import contextlib
 import gc
 import json
 import os
@@ -7,6 +8,7 @@ import resource
 import signal
 import subprocess
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -34,7 +36,7 @@ def dozen(field):
 
 
 def test_arrows_follow_the_flow(field, dozen):
-    u, v, x, y = field
+    x, y, u, v = field
     assert len(dozen) == 12 and dozen.counts.arrows == 12
     for arrow in dozen:
         way = np.diff(arrow.path, axis=0)
@@ -61,12 +63,12 @@ def _area(polygon):
     (["--clusters", "9", "--nodes", "129"], {"n": 9, "kind": "clusters", "nodes": 129}),
 ])
 def test_same_bits_as_the_program(tmp_path, field, options, arguments):
-    u, v, x, y = field
+    x, y, u, v = field
     np.savez(tmp_path / "field.npz", u=u, v=v, x=x, y=y)
     subprocess.run([PROGRAM, "run", tmp_path / "field.npz", "-o", tmp_path / "out", "--quiet",
                     *options], check=True)
     theirs = json.loads((tmp_path / "out" / "scale-00.geojson").read_text())
-    ours = flowgrain.arrows(u, v, x, y, **arguments).to_geojson()
+    ours = flowgrain.arrows(x, y, u, v, **arguments).to_geojson()
     assert ours["clusters"] == theirs["clusters"] and ours["dropped"] == theirs["dropped"]
     assert len(ours["features"]) == len(theirs["features"])
     for mine, other in zip(ours["features"], theirs["features"]):
@@ -74,16 +76,63 @@ def test_same_bits_as_the_program(tmp_path, field, options, arguments):
         for name, value in mine["properties"].items():
             assert value == other["properties"][name], name
     if "error" in theirs:
-        error = flowgrain.arrows(u, v, x, y, **arguments).error
+        error = flowgrain.arrows(x, y, u, v, **arguments).error
         assert error == pytest.approx(theirs["error"]["mean"], rel=1e-12)
 
 
+X, Y = np.meshgrid(np.linspace(-1.0, 2.0, 31), np.linspace(-1.0, 1.0, 21))
+RING = [(2.0 + Y) * np.cos(X), (2.0 + Y) * np.sin(X)]  # a curvilinear grid
+ROTATION, SADDLE, SOURCE = (-Y, X), (X, -Y), (X + 0.2, Y)
+SHEAR, STILL, WAVES = (Y, 0.0 * Y), (1.0 + 0.0 * Y, 0.0 * Y), (np.cos(3 * X), np.sin(4 * Y + X))
+CORE = [c / (0.05 + X * X + Y * Y) for c in ROTATION]  # one orientation but near its centre
+AXES = (X[0], Y[:, 0])
+
+
+@pytest.mark.parametrize("first, second, order, warning", [
+    # the documented order, in which meshes and axes are never doubted but for what are such, too
+    (AXES, ROTATION, "xyuv", None), (AXES, SADDLE, "xyuv", None), (AXES, WAVES, "xyuv", None),
+    ((X, Y), WAVES, "xyuv", None), ((X, Y), SHEAR, "xyuv", None), ((X, Y), CORE, "xyuv", None),
+    ((X, Y), STILL, "xyuv", None), ((X, Y), (X, Y), "xyuv", None), (RING, WAVES, "xyuv", None),
+    ((X, Y), RING, "xyuv", None), ((X.T, Y.T), [c.T for c in WAVES], "xyuv", None),
+    # both are possible
+    ((X, Y), ROTATION, "xyuv", UserWarning), ((X, Y), SADDLE, "xyuv", UserWarning),
+    ((X, Y), SOURCE, "xyuv", UserWarning), (ROTATION, (X, Y), "xyuv", UserWarning),
+    ((X.T, Y.T), [c.T for c in ROTATION], "xyuv", UserWarning),
+    (RING, CORE, "xyuv", UserWarning),
+    # the order of before
+    (WAVES, AXES, "uvxy", FutureWarning), (ROTATION, AXES, "uvxy", FutureWarning),
+    (WAVES, (X, Y), "uvxy", FutureWarning), (SHEAR, (X, Y), "uvxy", FutureWarning),
+    (STILL, (X, Y), "uvxy", FutureWarning), (CORE, (X, Y), "uvxy", FutureWarning),
+    (WAVES, RING, "uvxy", FutureWarning), (WAVES, (X.tolist(), Y.tolist()), "uvxy", FutureWarning),
+    (WAVES, (None, None), "uvxy", FutureWarning),
+])
+def test_order_of_arguments(first, second, order, warning):
+    named = dict(zip(order, (*first, *second)), n=3, nodes=33)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        expected = flowgrain.arrows(**named)  # without a doubt
+    with pytest.warns(warning) if warning else contextlib.nullcontext():
+        assert same(expected, flowgrain.arrows(*first, *second, n=3, nodes=33))
+    if order == "xyuv":
+        assert same(expected, flowgrain.arrows(*second, x=first[0], y=first[1], n=3, nodes=33))
+        assert same(expected, flowgrain.arrows(*first, u=second[0], v=second[1], n=3, nodes=33))
+
+
+@pytest.mark.parametrize("args, names", [
+    ((X,), {}), ((X, Y, X), {}), ((X, Y, X, Y), {"u": X}), ((X, Y, X, Y, X), {}), ((), {}),
+    ((), {"u": X}), ((), {"x": X, "y": Y}), ((X, Y), {"x": X, "u": X}),
+])
+def test_arguments_that_lack_something(args, names):
+    with pytest.raises(TypeError, match="are needed"):
+        flowgrain.arrows(*args, **names)
+
+
 def test_any_type_and_order_of_samples(field, dozen):
-    u, v, x, y = field
-    assert same(dozen, flowgrain.arrows(u.astype(">f8"), np.asfortranarray(v), x, y, n=12))
-    assert same(dozen, flowgrain.arrows(u[::-1, ::-1], v[::-1, ::-1], x[::-1], y[::-1], n=12))
-    assert same(dozen, flowgrain.arrows(u, v, *np.meshgrid(x, y), n=12))
-    assert same(dozen, flowgrain.arrows(u.tolist(), v.tolist(), list(x), list(y), n=12))
+    x, y, u, v = field
+    assert same(dozen, flowgrain.arrows(x, y, u.astype(">f8"), np.asfortranarray(v), n=12))
+    assert same(dozen, flowgrain.arrows(x[::-1], y[::-1], u[::-1, ::-1], v[::-1, ::-1], n=12))
+    assert same(dozen, flowgrain.arrows(*np.meshgrid(x, y), u, v, n=12))
+    assert same(dozen, flowgrain.arrows(list(x), list(y), u.tolist(), v.tolist(), n=12))
     whole = np.rint(u * 20).astype(np.int8), np.rint(v * 20).astype(np.int8)
     floats = [c.astype(np.float32) for c in whole]
     assert same(flowgrain.arrows(*whole, n=5), flowgrain.arrows(*floats, n=5))
@@ -92,27 +141,27 @@ def test_any_type_and_order_of_samples(field, dozen):
 @pytest.mark.parametrize("k", [0, 1])
 @pytest.mark.parametrize("way", [1, -1])
 def test_axes_that_begin_within_are_rolled(field, dozen, k, way):
-    u, v, x, y = field
+    x, y, u, v = field
     axes = [x, y]
     axes[k] = np.roll(axes[k], 17)[::way]
     u, v = (np.flip(c, 1 - k) if way < 0 else c for c in (np.roll(c, 17, 1 - k) for c in (u, v)))
-    found = flowgrain.arrows(u, v, *axes, n=12)
+    found = flowgrain.arrows(*axes, u, v, n=12)
     assert same(dozen, found)
     labels = np.flip(found.labels, 1 - k) if way < 0 else found.labels
     assert np.array_equal(labels, np.roll(dozen.labels, 17, 1 - k))
-    assert same(dozen, flowgrain.arrows(u, v, *np.meshgrid(*axes), n=12))
+    assert same(dozen, flowgrain.arrows(*np.meshgrid(*axes), u, v, n=12))
 
 
 def test_axes_of_a_volume_are_ordered():
     axis = np.linspace(0.0, 1.0, 9)
     z, y, x = np.meshgrid(axis, axis, axis, indexing="ij")
     u, v, w = 0.5 - y, x - 0.5, 0.1 + 0.2 * z
-    plain = flowgrain.arrows(u, v, axis, axis, w=w, z=axis, n=3, nodes=9)
+    plain = flowgrain.arrows(axis, axis, u, v, w=w, z=axis, n=3, nodes=9)
     u, v, w = (np.roll(c[:, :, ::-1], 4, 0) for c in (u, v, w))
-    assert same(plain, flowgrain.arrows(u, v, axis[::-1], axis, w=w, z=np.roll(axis, 4), n=3,
+    assert same(plain, flowgrain.arrows(axis[::-1], axis, u, v, w=w, z=np.roll(axis, 4), n=3,
                                         nodes=9))
     with pytest.raises(ValueError, match=r"z\[2\] is nan"):
-        flowgrain.arrows(u, v, axis, axis, w=w, z=moved(9, 2, np.nan))
+        flowgrain.arrows(axis, axis, u, v, w=w, z=moved(9, 2, np.nan))
 
 
 def globe(longitude):
@@ -129,9 +178,10 @@ def test_longitudes_of_any_half(east, break_at):
     u, v, latitude = globe(longitude)
     turned = np.where(longitude > break_at, longitude - 360.0, longitude)
     options = {"n": 10, "period": 360, "scale": "geo"}
-    found = flowgrain.arrows(u, v, turned, latitude, **options)
+    found = flowgrain.arrows(turned, latitude, u, v, **options)
     order = np.unique(turned, return_index=True)[1]
-    assert same(found, flowgrain.arrows(u[:, order], v[:, order], turned[order], latitude, **options))
+    assert same(found, flowgrain.arrows(turned[order], latitude, u[:, order], v[:, order],
+                                        **options))
     assert found.labels.shape == u.shape
 
 
@@ -140,30 +190,30 @@ def test_a_region_across_the_antimeridian():
     longitude = np.arange(100.0, 261.0, 5.0)
     u, v, latitude = globe(longitude)
     turned = np.where(longitude > 180.0, longitude - 360.0, longitude)
-    geo = flowgrain.arrows(u, v, turned, latitude, n=10, scale="geo")
-    assert same(geo, flowgrain.arrows(u, v, longitude, latitude, n=10, scale="geo"))
+    geo = flowgrain.arrows(turned, latitude, u, v, n=10, scale="geo")
+    assert same(geo, flowgrain.arrows(longitude, latitude, u, v, n=10, scale="geo"))
     assert geo.bounds[0].tolist() == [100.0, 260.0]
     assert set(np.unique(geo.labels)) >= set(range(1, geo.counts.clusters + 1))
-    plain = flowgrain.arrows(u, v, turned, latitude, n=10)
+    plain = flowgrain.arrows(turned, latitude, u, v, n=10)
     for path in plain.paths:
         assert (path[:, 0] < -100.0 + 1e-6).all() or (path[:, 0] > 100.0 - 1e-6).all()
 
 
 def test_missing_samples_are_avoided(field):
-    u, v, x, y = field
+    x, y, u, v = field
     hole = np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.2
     nan = np.where(hole, np.nan, u)
     masked = np.ma.masked_array(u, hole)
-    given = flowgrain.arrows(u, v, x, y, n=12, mask=hole)
-    assert same(given, flowgrain.arrows(nan, v, x, y, n=12))
-    assert same(given, flowgrain.arrows(masked, v, x, y, n=12))
+    given = flowgrain.arrows(x, y, u, v, n=12, mask=hole)
+    assert same(given, flowgrain.arrows(x, y, nan, v, n=12))
+    assert same(given, flowgrain.arrows(x, y, masked, v, n=12))
     for path in given.paths:
         assert np.hypot(*(path - (6.0, 1.0)).T).min() > 1.1
     assert (given.labels[np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.0] < 1).all()
 
 
 def test_labels_are_of_the_samples(field, dozen):
-    u, v, x, y = field
+    x, y, u, v = field
     assert dozen.labels.shape == u.shape
     assert set(np.unique(dozen.labels)) >= set(range(1, dozen.counts.clusters + 1))
     clusters = flowgrain.arrows(*field, n=12, kind="clusters")
@@ -172,7 +222,7 @@ def test_labels_are_of_the_samples(field, dozen):
         at = np.abs(y - center[1]).argmin(), np.abs(x - center[0]).argmin()
         assert clusters.labels[at] == cluster
     # turned samples have turned labels
-    turned = flowgrain.arrows(u[::-1], v[::-1], x, y[::-1], n=12)
+    turned = flowgrain.arrows(x, y[::-1], u[::-1], v[::-1], n=12)
     assert np.array_equal(turned.labels, dozen.labels[::-1])
 
 
@@ -180,12 +230,12 @@ def test_uneven_and_curvilinear_coordinates():
     # solid rotation, which bilinear samples have exactly
     x, y = np.linspace(-1.0, 1.0, 41) ** 3, np.linspace(-1.0, 1.0, 31)
     x2, y2 = np.meshgrid(x, y)
-    uneven = flowgrain.arrows(-y2, x2, x, y, n=8)
+    uneven = flowgrain.arrows(x, y, -y2, x2, n=8)
     for path in uneven.paths:
         assert np.ptp(np.hypot(*path.T)) < 0.02
     angle, radius = np.meshgrid(np.linspace(0.2, 2.9, 61), np.linspace(0.5, 1.5, 25))
     px, py = radius * np.cos(angle), radius * np.sin(angle)
-    ring = flowgrain.arrows(-py, px, px, py, n=8)
+    ring = flowgrain.arrows(x=px, y=py, u=-py, v=px, n=8)
     for path in ring.paths:
         distance = np.hypot(*path.T)
         assert np.ptp(distance) < 0.02 and 0.5 < distance.mean() < 1.5
@@ -229,7 +279,7 @@ def test_gaps_of_a_curvilinear_grid(columns, gaps):
 @pytest.mark.parametrize("scale, east", [("plain", 180.0), ("plain", 360.0), ("geo", 180.0)])
 def test_global_curvilinear_grids_end_at_their_seam(scale, east):
     lon, lat, land, u, v = ocean(east)
-    found = flowgrain.arrows(u, v, lon, lat, mask=land, scale=scale, n=40)
+    found = flowgrain.arrows(lon, lat, u, v, mask=land, scale=scale, n=40)
     assert found.bounds[0] == pytest.approx((east - 360.0, east), abs=2.0)
     assert not any(is_land(*path.T).any() for path in found.paths)
     # along the flow there
@@ -248,7 +298,7 @@ def test_nothing_is_drawn_between_swaths(wrap):
     lon, lat = np.meshgrid(175.0 + across, np.linspace(-18.0, 18.0, 150))
     lon = lon + 0.15 * lat
     given = (lon + 180.0) % 360.0 - 180.0 if wrap else lon
-    found = flowgrain.arrows(8.0 + 0.0 * lon, np.sin(0.1 * lat), given, lat, n=30, scale="geo")
+    found = flowgrain.arrows(given, lat, 8.0 + 0.0 * lon, np.sin(0.1 * lat), n=30, scale="geo")
     assert found.bounds[0] == pytest.approx((lon.min(), lon.max()))
     off = np.concatenate([path[:, 0] - 0.15 * path[:, 1] for path in found.paths]) - 175.0
     assert (np.abs(off) > 3.9).all() and off.min() < -5.0 and off.max() > 5.0
@@ -258,7 +308,7 @@ def test_periodic_longitude_and_geojson():
     longitude, latitude = np.arange(0.0, 361.0, 5.0), np.arange(-60.0, 61.0, 5.0)
     lon, lat = np.meshgrid(np.radians(longitude), np.radians(latitude))
     u, v = 10.0 * np.cos(lat), 3.0 * np.sin(3.0 * lon)
-    globe = flowgrain.arrows(u, v, longitude, latitude, n=15, period=360, scale="geo")
+    globe = flowgrain.arrows(longitude, latitude, u, v, n=15, period=360, scale="geo")
     assert globe.bounds[0].tolist() == [0.0, 360.0]
     assert globe.labels.shape == u.shape
     collection = globe.to_geojson()
@@ -284,7 +334,7 @@ def test_scales_follow_each_other(field):
 def test_volume():
     axis = np.linspace(0.0, 1.0, 17)
     z, y, x = np.meshgrid(axis, axis, axis, indexing="ij")
-    found = flowgrain.arrows(0.5 - y, x - 0.5, axis, axis, w=0.1 + 0.0 * x, z=axis, n=6, nodes=17)
+    found = flowgrain.arrows(axis, axis, 0.5 - y, x - 0.5, w=0.1 + 0.0 * x, z=axis, n=6, nodes=17)
     assert len(found) == 6 and found.paths[0].shape[1] == 3 and found.labels.shape == x.shape
     vertices, triangles = found.solids()[0]
     edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), 1)
@@ -358,7 +408,7 @@ def test_sequence(dozen):
     ({"z": np.arange(3)}, "z is given without w"),
 ])
 def test_refusals(field, change, message):
-    arguments = dict(zip(("u", "v", "x", "y"), field), n=12)
+    arguments = dict(zip(("x", "y", "u", "v"), field), n=12)
     with pytest.raises(ValueError, match=message):
         flowgrain.arrows(**{**arguments, **change})
 
@@ -367,7 +417,7 @@ def test_hints_name_arguments_of_python():
     axis = np.linspace(0.0, 1.0, 9)
     cube = np.ones((9, 9, 9))
     with pytest.raises(ValueError, match="cannot be handled yet\\nscale='plain' takes"):
-        flowgrain.arrows(cube, cube, axis, axis, w=cube, z=axis, scale="geo")
+        flowgrain.arrows(axis, axis, cube, cube, w=cube, z=axis, scale="geo")
 
 
 def test_threads_give_the_same_bits_at_once(field, dozen):
@@ -419,7 +469,7 @@ def test_nothing_is_leaked(field):
         found = flowgrain.arrows(*field, n=3, nodes=65)
         found.outlines, found.labels, found.error
         with pytest.raises(ValueError):
-            flowgrain.arrows(field[0] * 0.0, field[1] * 0.0)
+            flowgrain.arrows(field[2] * 0.0, field[3] * 0.0)
 
     def pages():
         gc.collect()

@@ -65,7 +65,7 @@ def test_logarithmic_axes_begin_at_positive_coordinates(ax):
 
 
 def test_axes_in_any_order(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     sorted_ = lines(flowgrain.quiver(ax, x, y, u, v, u, arrows=9))
     for roll, flip in ((20, 1), (20, -1)):
         def moved(a, roll=roll, flip=flip):
@@ -90,7 +90,7 @@ def test_uv_is_along_the_page(ax):
 
 
 def test_as_many_arrows_in_any_view(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     for view in ((1, 9, -2, 4), (5, 8, 0, 3), (1.5, 2.5, -1, -0.5)):
         ax.set_xlim(view[:2])
@@ -105,7 +105,7 @@ def test_as_many_arrows_in_any_view(ax, field):
 
 
 def test_kept_arrows_stay_in_place(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15, adaptive=False)
     before = lines(q)
     width = np.ptp(q.get_paths()[0].vertices, 0)
@@ -115,7 +115,7 @@ def test_kept_arrows_stay_in_place(ax, field):
 
 
 def test_resolution_does_not_matter(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     before = lines(q)
     for options in ({"dpi": 50}, {"dpi": 217}, {"format": "pdf"}, {"format": "svg"}):
@@ -125,7 +125,7 @@ def test_resolution_does_not_matter(ax, field):
 
 def test_a_layout_of_another_resolution_keeps_arrows(field):
     """The text of axes has another size at another resolution, and so has what it leaves."""
-    u, v, x, y = field
+    x, y, u, v = field
     figure, ax = plt.subplots(layout="constrained")
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     ax.set(xlabel="x", ylabel="y", title="a field")
@@ -144,7 +144,7 @@ def test_a_layout_of_another_resolution_keeps_arrows(field):
 
 
 def test_figures_of_any_resolution_have_the_same_bits(field):
-    u, v, x, y = field
+    x, y, u, v = field
     found = []
     for dpi in (72, 100, 217, 300):
         figure, ax = plt.subplots(dpi=dpi)
@@ -158,7 +158,7 @@ def test_figures_of_any_resolution_have_the_same_bits(field):
 
 
 def test_arrows_are_told_in_points_of_the_axes(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     scale = 72.0 / ax.figure.dpi
     for path, line in zip(q.arrows.paths, lines(q)):
@@ -170,7 +170,7 @@ def test_arrows_are_told_in_points_of_the_axes(ax, field):
 
 
 def test_colours(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     bar = ax.figure.colorbar(q)
     ends = bar.vmin, bar.vmax
@@ -193,7 +193,7 @@ def test_colours(ax, field):
 def test_ends_of_colours(ax, field):
     """Those of the arrows that are placed first, of all values where there is no arrow; given ones
     are matplotlib's."""
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     color = q.to_rgba(0.3)
     ends = q.get_clim()
@@ -291,7 +291,7 @@ def test_dates_and_pickles(ax):
 
 
 def test_key(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     for position, off in (("E", (1, 0)), ("W", (-1, 0)), ("N", (0, 1)), ("S", (0, -1))):
         key = flowgrain.quiverkey(q, 0.8, 1.05, 0.3, "0.3 m/s", labelpos=position)
@@ -310,7 +310,7 @@ def test_key(ax, field):
 def test_arrows_are_placed_once_for_a_layout(field, monkeypatch):
     from flowgrain import _quiver
 
-    u, v, x, y = field
+    x, y, u, v = field
     counted, place = [], _quiver.place
     monkeypatch.setattr(_quiver, "place", lambda *a: counted.append(a) or place(*a))
     figure, ax = plt.subplots(layout="constrained")
@@ -326,7 +326,7 @@ def test_arrows_are_placed_once_for_a_layout(field, monkeypatch):
 
 
 def test_layout_and_limits(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=5)
     assert ax.dataLim.bounds == pytest.approx((1.0, -2.0, 8.0, 6.0))
     ax.figure.tight_layout()
@@ -336,6 +336,21 @@ def test_layout_and_limits(ax, field):
     assert q in ax.collections
     q.remove()
     assert q not in ax.collections
+
+
+def test_swapped_arguments(ax):
+    x, y = np.meshgrid(np.linspace(-1.0, 2.0, 31), np.linspace(-1.0, 1.0, 21))
+    waves, core = (np.cos(3 * x), np.sin(4 * y + x)), (-y / (0.1 + x * x), x / (0.1 + x * x))
+    for u, v in ((-y, x), (x, -y), waves, core, (y, 0 * y), (x, y)):  # fields, in the right order
+        flowgrain.quiver(ax, x, y, u, v)
+    for u, v in (waves, (y, 0 * y)):
+        with pytest.raises(ValueError, match="the order is X, Y, U, V"):
+            flowgrain.quiver(ax, u, v, x, y)
+    with pytest.raises(ValueError, match="in the order X, Y, U, V"):
+        flowgrain.quiver(ax, *waves, x[0], y[:, 0])
+    r = 0.1 + x * x + y * y
+    with pytest.warns(UserWarning, match="the order is X, Y, U, V"):
+        flowgrain.quiver(ax, -y / r, x / r, x, y)
 
 
 @pytest.mark.parametrize("args, options, message", [
@@ -473,6 +488,6 @@ def test_no_matplotlib_is_needed_without_pictures():
 
 
 def test_large_grids_are_drawn(ax):
-    u, v, x, y = vortices(1001, 801)
+    x, y, u, v = vortices(1001, 801)
     q = flowgrain.quiver(ax, *np.meshgrid(x, y), u, v, arrows=10)
     assert len(q.get_paths()) == 10

@@ -11,7 +11,7 @@ xr = pytest.importorskip("xarray")
 
 
 def dataset(**names):
-    u, v, x, y = vortices(33, 25)
+    x, y, u, v = vortices(33, 25)
     return xr.Dataset({names.get("u", "u"): (("y", "x"), u), names.get("v", "v"): (("y", "x"), v)},
                       {"x": x, "y": y})
 
