@@ -543,26 +543,11 @@ class _Placed:
 
 
 def arrows(
-    *args: Any,
-    x: Any = None,
-    y: Any = None,
-    z: Any = None,
-    u: Any = None,
-    v: Any = None,
-    w: Any = None,
-    n: int = 40,
-    mask: Any = None,
-    period: Any = None,
-    tolerance: float | None = None,
-    seed: int = 1,
-    scale: str = "plain",
-    kind: str = "arrows",
-    start: str = "clusters",
-    anisotropy: float | None = None,
-    coverage: float | None = None,
-    nodes: int | None = None,
-    lengths: str = "free",
-    effort: str = "normal",
+    *args: Any, x: Any = None, y: Any = None, z: Any = None, u: Any = None, v: Any = None,
+    w: Any = None, n: int = 40, mask: Any = None, period: Any = None,
+    tolerance: float | None = None, seed: int = 1, scale: str = "plain", kind: str = "arrows",
+    start: str = "clusters", anisotropy: float | None = None, coverage: float | None = None,
+    nodes: int | None = None, lengths: str = "free", effort: str = "normal",
     threads: int | None = None,
 ) -> Arrows:
     """Shows a vector field by few curved arrows: ``arrows([x, y], u, v)``, as `quiver`, or by name.
@@ -575,9 +560,10 @@ def arrows(
 
     Parameters
     ----------
-    u, v : array_like, (ny, nx); with `w` (nz, ny, nx)
+    u, v : array_like, (ny, nx); with `w` (nz, ny, nx); or (n,) of scattered points
         Components of the velocity along x and y, numbers of any type. Masked and NaN samples are
-        missing: no arrow goes there.
+        missing: no arrow goes there. Between points, as stations, the field is interpolated as the
+        program does it of a table's: in triangles, in 3D by local fits, and not over gaps.
     x, y : array_like, (nx,) and (ny,), or both of the shape of u; optional
         Coordinates, ascending or descending, evenly spaced or not; by default 0, 1, ... Those of a
         curvilinear grid have the shape of u; the field is then interpolated onto an even raster,
@@ -645,26 +631,11 @@ def arrows(
 
 
 def evolve(
-    *args: Any,
-    x: Any = None,
-    y: Any = None,
-    z: Any = None,
-    u: Any = None,
-    v: Any = None,
-    w: Any = None,
-    n: Sequence[int] | None = None,
-    mask: Any = None,
-    period: Any = None,
-    seed: int = 1,
-    scale: str = "plain",
-    kind: str = "arrows",
-    start: str = "clusters",
-    anisotropy: float | None = None,
-    coverage: float | None = None,
-    nodes: int | None = None,
-    lengths: str = "free",
-    effort: str = "normal",
-    threads: int | None = None,
+    *args: Any, x: Any = None, y: Any = None, z: Any = None, u: Any = None, v: Any = None,
+    w: Any = None, n: Sequence[int] | None = None, mask: Any = None, period: Any = None,
+    seed: int = 1, scale: str = "plain", kind: str = "arrows", start: str = "clusters",
+    anisotropy: float | None = None, coverage: float | None = None, nodes: int | None = None,
+    lengths: str = "free", effort: str = "normal", threads: int | None = None,
 ) -> Iterator[Arrows]:
     """Iterates over scales, from many arrows to few: ``evolve([x, y], u, v)``, as `arrows`.
 

@@ -7,7 +7,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from ._core import ffi, lib
-from ._library import Context
+from ._library import Context, copy
 
 SCALES = {"plain": "FG_SCALE_PLAIN", "geo": "FG_SCALE_GEO"}
 
@@ -38,7 +38,7 @@ class Grid:
         ends = [(a[0], a[0] + p if p else a[-1]) for a, p in zip(self.axes, self.periods)]
         return np.array(ends)
 
-    def create_field(self, context: Context) -> Any:
+    def create_field(self, context: Context, function: Any = lib.fg_field_create) -> Any:
         """The library's field, a copy."""
         arrays = ffi.new("fg_field_arrays *")
         arrays.dimension = self.dimension
@@ -50,7 +50,7 @@ class Grid:
             arrays.axis[k], arrays.velocity[k] = kept[-2:]
             arrays.period[k] = self.periods[k]
         return context.create(
-            "fg_field", lib.fg_field_destroy, lib.fg_field_create, context.handle, arrays
+            "fg_field", lib.fg_field_destroy, function, context.handle, arrays
         )
 
     def at_samples(self, nodes: np.ndarray, origin: Sequence[float], spacing: Sequence[float],
@@ -66,60 +66,57 @@ class Grid:
         return nodes[tuple(index[::-1])]
 
 
+def _numbers(name: str, values: Any) -> Any:
+    array = np.ma.asanyarray(values)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    return array
+
+
 def real_array(name: str, values: Any) -> np.ndarray:
     """Any numbers as float64, NaN where they are masked."""
-    array = np.ma.asanyarray(values)
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
-    return np.ma.filled(array.astype(np.float64), np.nan)
+    return np.ma.filled(_numbers(name, values).astype(np.float64), np.nan)
 
 
-def velocity_array(name: str, values: Any, shape: tuple[int, ...] | None) -> np.ndarray:
-    """A component as float32 samples, contiguous, NaN where they are masked."""
-    array = np.ma.asanyarray(values)
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
-    if shape is not None and array.shape != shape:
-        raise ValueError(f"{name} has the shape {array.shape}, but u has {shape}")
-    with np.errstate(over="ignore"):
-        samples = np.array(np.ma.getdata(array), np.float32, order="C")
-    if array.dtype.itemsize > 4 and np.isinf(samples).any():
-        too_fast = np.isinf(samples) & np.isfinite(np.ma.getdata(array))
-        samples[too_fast] = np.finfo(np.float32).max  # which the library refuses with its number
-    samples[np.ma.getmaskarray(array)] = np.nan
-    return samples
+def velocity_arrays(components: Sequence[Any], mask: Any) -> list[np.ndarray]:
+    """Components as float32 samples, contiguous, NaN where they are masked."""
+    shape, found = np.shape(components[0]), []
+    for name, values in zip("uvw", components):
+        array = _numbers(name, values)
+        if array.shape != shape:
+            raise ValueError(f"{name} has the shape {array.shape}, but u has {shape}")
+        with np.errstate(over="ignore"):
+            samples = np.array(np.ma.getdata(array), np.float32, order="C")
+        if array.dtype.itemsize > 4 and np.isinf(samples).any():
+            too_fast = np.isinf(samples) & np.isfinite(np.ma.getdata(array))
+            samples[too_fast] = np.finfo(np.float32).max  # the library refuses it with its number
+        samples[np.ma.getmaskarray(array)] = np.nan
+        if mask is not None:
+            out = np.ma.filled(np.ma.asanyarray(mask), True).astype(bool)
+            if out.shape != shape:
+                raise ValueError(f"mask has the shape {out.shape}, but u has {shape}")
+            samples[out] = np.nan
+        found.append(samples)
+    return found
 
 
 def make_grid(
-    components: Sequence[Any],
-    coordinates: Sequence[Any],
-    mask: Any = None,
-    period: Any = None,
-    scale: str = "plain",
-    circle: float = 0.0,
+    components: Sequence[Any], coordinates: Sequence[Any], mask: Any = None, period: Any = None,
+    scale: str = "plain", circle: float = 0.0,
 ) -> Grid:
     """Checks and orders what a user has given; circle: that of `Grid`."""
     if scale not in SCALES:
         raise ValueError(f"scale is {scale!r}, not one of {', '.join(SCALES)}")
-    names = "uvw"
-    first = np.ma.asanyarray(components[0])
-    dimension = len(components)
-    if first.ndim != dimension:
+    shape, dimension = np.shape(components[0]), len(components)
+    if len(shape) not in (1, dimension):
         order = "(ny, nx)" if dimension == 2 else "(nz, ny, nx)"
-        raise ValueError(f"u has the shape {first.shape}; {order} is needed"
-                         + ("; in 3D there is also w" if first.ndim == 3 else ""))
-    shape = first.shape
-    velocity = [velocity_array(names[k], c, shape) for k, c in enumerate(components)]
-    if mask is not None:
-        out = np.ma.filled(np.ma.asanyarray(mask), True).astype(bool)
-        if out.shape != shape:
-            raise ValueError(f"mask has the shape {out.shape}, but u has {shape}")
-        for samples in velocity:
-            samples[out] = np.nan
+        raise ValueError(f"u has the shape {shape}; {order} is needed, or (n,) of points"
+                         + ("; in 3D there is also w" if len(shape) == 3 else ""))
+    velocity = velocity_arrays(components, mask)
     periods = _periods(period, dimension)
-    axes = [_coordinate(k, coordinates[k], shape) for k in range(dimension)]
-    if any(axis.ndim > 1 for axis in axes):
-        axes = _reduced(axes, shape)
+    if len(shape) == 1:
+        return _grid_of_points(velocity, coordinates, periods, scale)
+    axes = axes_of(coordinates, shape)
     if any(axis.ndim > 1 for axis in axes):
         return _curvilinear_grid(velocity, axes, periods, scale)
     grid = Grid(velocity, axes, periods, scale, circle=circle or 360.0 * (scale == "geo"))
@@ -143,6 +140,32 @@ def mesh_rank(x: Any, y: Any) -> int:
     area = a * d - b * c
     known = np.isfinite(area).sum()
     return int(max((area > 0.0).sum(), (area < 0.0).sum()) > 0.9 * known)
+
+
+def _grid_of_points(velocity: list[np.ndarray], coordinates: Sequence[Any], periods: list[float],
+                    scale: str) -> Grid:
+    """The grid of scattered points, as the program makes one of a table's."""
+    places = [np.ascontiguousarray(real_array("xyz"[k], c))
+              for k, c in enumerate(coordinates) if c is not None]
+    shapes = [place.shape for place in places]
+    if any(periods) or shapes != [velocity[0].shape] * len(velocity):
+        raise ValueError(f"u has the shape {velocity[0].shape}, that of points: "
+                         f"{', '.join('xyz'[:len(velocity)])} need the same, not "
+                         f"{', '.join(map(str, shapes)) or 'none'}, and no period")
+    field = Grid(velocity, places, periods, scale).create_field(
+        Context(), lib.fg_field_create_scattered)
+    arrays = lib.fg_field_contents(field)
+    if arrays.dimension < len(velocity):
+        raise ValueError("the points lie in a plane: give its two coordinates and components")
+    size = [arrays.size[k] for k in range(arrays.dimension)]
+    axes = [copy(arrays.axis[k], (n,), np.float64) for k, n in enumerate(size)]
+    velocity = [copy(arrays.velocity[k], tuple(size[::-1]), np.float32) for k in range(len(size))]
+    for samples in velocity if arrays.valid else []:
+        samples[copy(arrays.valid, samples.shape, np.uint8) == 0] = np.nan
+    if scale == "geo":
+        places[0] = in_one_piece(places[0])
+    return Grid(velocity, axes, list(arrays.period)[:len(size)], scale, places,
+                360.0 * (scale == "geo"))
 
 
 def _periods(period: Any, dimension: int) -> list[float]:
@@ -172,9 +195,11 @@ def _coordinate(k: int, values: Any, shape: tuple[int, ...]) -> np.ndarray:
     return array
 
 
-def _reduced(axes: list[np.ndarray], shape: tuple[int, ...]) -> list[np.ndarray]:
-    """Axes instead of coordinates of each sample, where these are the same along all others."""
-    found = []
+def axes_of(coordinates: Sequence[Any], shape: tuple[int, ...]) -> list[np.ndarray]:
+    """Axes, also of coordinates of each sample that are the same along all others; else those of
+    each sample."""
+    axes = [_coordinate(k, values, shape) for k, values in enumerate(coordinates)]
+    found: list[np.ndarray] = []
     for k, values in enumerate(axes):
         if values.ndim == 1:
             found.append(values)
@@ -239,17 +264,13 @@ def ordered(name: str, axis: np.ndarray, circle: float = 0.0) -> tuple[np.ndarra
 
 def _order_axis(grid: Grid, k: int) -> np.ndarray:
     """Makes an axis ascend, and leaves out the sample that repeats the first a period later.
-
-    Returns the coordinates in the user's order.
-    """
+    Returns the coordinates in the user's order."""
     along = grid.dimension - 1 - k
     places, order = ordered("xyz"[k], grid.axes[k], 0.0 if k else grid.circle)
-    if len(order) < len(places):
-        for samples in grid.velocity:
-            first, last = samples.take([0, -1], along).swapaxes(0, along)
-            if not np.allclose(first, last, equal_nan=True):
-                raise ValueError(f"{'xyz'[k]}[0] and {'xyz'[k]}[{len(places) - 1}] are both "
-                                 f"{places[0]:.9g}, with other samples")
+    ends = ([samples.take(i, along) for samples in grid.velocity] for i in (0, -1))
+    if len(order) < len(places) and not np.allclose(*ends, equal_nan=True):
+        raise ValueError(f"{'xyz'[k]}[0] and {'xyz'[k]}[{len(places) - 1}] are both "
+                         f"{places[0]:.9g}, with other samples")
     axis, period = places[order], grid.periods[k]
     if period and len(axis) > 2 and abs(axis[-1] - axis[0] - period) <= 1e-6 * period:
         axis, order = axis[:-1], order[:-1]
@@ -293,10 +314,8 @@ def _curvilinear_grid(
     for start, length in zip(low, extent):
         axes.append(np.linspace(start, start + length, max(int(np.ceil(length / spacing)) + 1, 2)))
     thin = thinned([x, y, *velocity], MOST * MOST)
-    if scale == "geo":  # cells where longitudes jump by a turn are none
-        whole, widest = over_no_gap(on_sphere(*thin[:2])), 180.0
-    else:
-        whole, widest = over_no_gap(thin[:2]), np.inf
+    whole = over_no_gap(on_sphere(*thin[:2]) if scale == "geo" else thin[:2])
+    widest = 180.0 if scale == "geo" else np.inf  # cells where longitudes jump by a turn are none
     raster = resample_triangles(thin[0], thin[1], thin[2:], axes, whole, widest)
     grid = Grid([np.ascontiguousarray(r, np.float32) for r in raster], axes, periods, scale)
     grid.places = places
@@ -330,7 +349,8 @@ def on_sphere(longitude: np.ndarray, latitude: np.ndarray) -> np.ndarray:
 
 
 def over_no_gap(places: Sequence[np.ndarray]) -> np.ndarray:
-    """Which cells, (ny - 1, nx - 1), of a curvilinear grid lie where it was sampled.
+    """Which cells, (ny - 1, nx - 1), of a curvilinear grid lie where it was sampled, by coordinates
+    in a plane or in space.
 
     An edge between neighbours along a line of the grid goes over a gap where it is more than WIDE
     times as long as the median of the edges of that line that are at most BESIDE away, itself among
@@ -339,10 +359,6 @@ def over_no_gap(places: Sequence[np.ndarray]) -> np.ndarray:
     neighbours across a gap between swaths, or a jump of longitudes, are none; up to three lines may
     be left out of an even grid; spacings may change anywhere, at once too, since from there on they
     are those of half the edges.
-
-    Parameters
-    ----------
-    places : coordinates, each (ny, nx), of the plane in which gaps are seen, or of the sphere
     """
     whole = np.ones([n - 1 for n in places[0].shape], bool)
     for along in (0, 1):

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ._grid import _coordinate, _reduced, on_sphere
+from ._grid import on_sphere
 
 
 class TransformPlane:
@@ -33,9 +33,6 @@ class TransformPlane:
     @property
     def has_data_limits(self) -> bool:
         return self._transform is None or self._transform.contains_branch(self._ax.transData)
-
-    def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-        return _axes_of(x, y, shape)
 
     @property
     def circle(self) -> float:
@@ -85,9 +82,6 @@ class CrsPlane:
     @property
     def _to_axes(self) -> Any:
         return self._ax.transData - self._ax.transAxes
-
-    def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-        return _axes_of(x, y, shape)
 
     @property
     def circle(self) -> float:
@@ -159,9 +153,3 @@ def period_of(x: np.ndarray, circle: float) -> float | None:
     step = way / max(len(x) - 1, 1)
     closes = abs(way + step - circle) < 0.01 * step or abs(way - circle) < 0.01 * step
     return circle if circle and closes else None
-
-
-def _axes_of(x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-    """Axes, from coordinates of each sample too; None: the grid is curvilinear."""
-    axes = _reduced([_coordinate(0, x, shape), _coordinate(1, y, shape)], shape)
-    return None if any(axis.ndim > 1 for axis in axes) else axes

@@ -55,7 +55,7 @@ class DatasetFlowgrain:
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
                              f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
-        for name, axis in (("x", px), ("y", py)):
+        for axis in (px, py):
             if axis.ndim == 1 and axis.dtype.kind in "iuf":
                 ordered(str(axis.name), axis.values)  # refuses by its name
         if degrees:

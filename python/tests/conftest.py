@@ -19,8 +19,8 @@ def vortices(nx=65, ny=49, wide=8.0, tall=6.0):
 
 
 def ocean(east=180.0):
-    """A curvilinear grid of the globe whose poles lie elsewhere: longitudes up to `east`, latitudes,
-    which are land, and u, v."""
+    """A curvilinear grid of the globe whose poles lie elsewhere: longitudes up to `east`,
+    latitudes, which are land, and u, v."""
     a, b = np.meshgrid(np.radians(np.arange(0.0, 360.0, 3.0)), np.radians(np.linspace(-65, 70, 61)))
     p, q, r = np.cos(b) * np.cos(a), np.cos(b) * np.sin(a), np.sin(b)
     p, r = p * 0.9 + r * 0.43, r * 0.9 - p * 0.43
@@ -33,9 +33,11 @@ def ocean(east=180.0):
 
 def is_land(lon, lat):
     """Within so many degrees of some places."""
-    near = [np.hypot((np.mod(lon - x + 180.0, 360.0) - 180.0) * np.cos(np.radians(lat)), lat - y) < r
-            for x, y, r in ((20, 5, 30), (-70, -10, 25), (100, 40, 30), (135, -25, 15))]
-    return np.any(near, 0)
+    places, land = ((20, 5, 30), (-70, -10, 25), (100, 40, 30), (135, -25, 15)), False
+    for x, y, degrees in places:
+        east = (np.mod(lon - x + 180.0, 360.0) - 180.0) * np.cos(np.radians(lat))
+        land = land | (np.hypot(east, lat - y) < degrees)
+    return land
 
 
 @pytest.fixture(scope="session")

@@ -199,6 +199,81 @@ def test_a_region_across_the_antimeridian():
         assert (path[:, 0] < -100.0 + 1e-6).all() or (path[:, 0] > 100.0 - 1e-6).all()
 
 
+def stations(count=900, west=0.0):
+    """x, y, u, v of points with a hole, in an order of their own."""
+    random = np.random.default_rng(5)
+    x, y = random.uniform(0.0, 8.0, count), random.uniform(0.0, 6.0, count)
+    kept = np.hypot(x - 4.0, y - 3.0) > 1.6
+    x, y = x[kept], y[kept]
+    return west + x, y, 1.0 + np.sin(y), np.cos(0.7 * x)
+
+
+@pytest.mark.skipif(not PROGRAM, reason="FLOWGRAIN_PROGRAM names no program to compare with")
+def test_points_are_read_as_the_program_reads_tables(tmp_path):
+    points = [np.float32(a).astype(float) for a in stations()]
+    np.savetxt(tmp_path / "points.csv", np.stack(points, 1), "%.17g", ",", header="x,y,u,v",
+               comments="")
+    subprocess.run([PROGRAM, "run", tmp_path / "points.csv", "-o", tmp_path / "out", "--quiet",
+                    "--arrows", "9"], check=True)
+    theirs = json.loads((tmp_path / "out" / "scale-00.geojson").read_text())["features"]
+    ours = flowgrain.arrows(*points, n=9).to_geojson()["features"]
+    assert [f["geometry"] for f in ours] == [f["geometry"] for f in theirs]
+
+
+def test_points():
+    x, y, u, v = stations()
+    found = flowgrain.arrows(x, y, u, v, n=10)
+    assert found.labels.shape == x.shape
+    for path in found.paths:
+        assert np.hypot(*(path - (4.0, 3.0)).T).min() > 1.2  # not over the hole
+        middle, way = 0.5 * (path[1:] + path[:-1]), np.diff(path, axis=0)
+        there = np.stack([1.0 + np.sin(middle[:, 1]), np.cos(0.7 * middle[:, 0])], 1)
+        cosine = (way * there).sum(1) / np.hypot(*way.T) / np.hypot(*there.T)
+        assert np.median(cosine) > 0.99
+    gone = np.hypot(x - 1.5, y - 4.0) < 1.2
+    for path in flowgrain.arrows(x, y, u, v, mask=gone, n=10).paths:
+        assert np.hypot(*(path - (1.5, 4.0)).T).min() > 0.9
+    east = flowgrain.arrows(*stations(west=176.0), n=10, scale="geo")
+    x, y, u, v = stations(west=176.0)
+    turned = flowgrain.arrows(np.where(x > 180.0, x - 360.0, x), y, u, v, n=10, scale="geo")
+    assert same(east, turned) and np.array_equal(east.labels, turned.labels)
+    assert east.bounds[0] == pytest.approx((176.0, 184.0), abs=0.1)
+
+
+def test_points_of_a_grid_are_its_samples(field, dozen):
+    x, y, u, v = field
+    order = np.random.default_rng(2).permutation(u.size)
+    points = [a.ravel()[order] for a in (*np.meshgrid(x, y), u, v)]
+    found = flowgrain.arrows(*points, n=12)
+    assert same(dozen, found) and np.array_equal(found.labels, dozen.labels.ravel()[order])
+
+
+def test_points_in_space():
+    x, y, z = np.random.default_rng(1).uniform(0.0, 1.0, (3, 800))
+    found = flowgrain.arrows(x, y, 0.5 - y, x - 0.5, w=0.3 + 0.0 * z, z=z, n=3, nodes=17)
+    assert found.bounds.shape == (3, 2) and len(found) == 3 and found.labels.shape == (800,)
+    with pytest.raises(ValueError, match="lie in a plane"):
+        flowgrain.arrows(x, y, x, y, w=x, z=0.0 * z, n=3)
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"x": None, "y": None}, "x, y need the same, not none"),
+    ({"x": np.arange(7)}, r"not \(7,\), \("),
+    ({"y": None}, "need the same"),
+    ({"period": 360}, "no period"),
+    ({"x": np.arange(340.0), "y": np.arange(340.0)}, "lie on one line"),
+    ({"x": np.arange(340) // 2, "y": np.arange(340) // 2}, "points 0 and 1, both at.*\nleave one "
+                                                           "time and one level$"),
+    ({"x": moved(340, 9, np.inf)}, "point 9: the point's coordinate 1 is inf"),
+    ({"u": np.full(340, -9999.0), "v": np.full(340, -9999.0)}, "point 0: both.*\nmake it NaN"),
+    ({"scale": "geo", "y": np.arange(340.0)}, "no place on the globe"),
+])
+def test_refused_points(change, message):
+    points = {k: a[:340] for k, a in zip(("x", "y", "u", "v"), stations())}
+    with pytest.raises(ValueError, match=message):
+        flowgrain.arrows(**{**points, **change})
+
+
 def test_missing_samples_are_avoided(field):
     x, y, u, v = field
     hole = np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.2
@@ -372,7 +447,8 @@ def test_sequence(dozen):
     ({"u": np.zeros((49, 65)), "v": np.zeros((49, 65))}, "zero everywhere"),
     ({"u": np.full((49, 65), np.nan)}, "valid|missing"),
     ({"v": np.zeros((65, 49))}, r"v has the shape \(65, 49\)"),
-    ({"u": np.zeros(65)}, r"\(ny, nx\) is needed"),
+    ({"u": np.zeros(65)}, r"v has the shape \(49, 65\), but u has \(65,\)"),
+    ({"u": np.zeros((2, 3, 4, 5))}, r"\(ny, nx\) is needed, or \(n,\) of points"),
     ({"u": np.zeros((49, 65), complex)}, "complex"),
     ({"u": np.full((49, 65), 1e300)}, "fill value"),
     ({"x": np.zeros(7)}, r"x has the shape \(7,\)"),

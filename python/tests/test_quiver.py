@@ -277,6 +277,28 @@ def test_nothing_is_drawn_over_gaps(ax):
     plt.close(figure)
 
 
+def test_points(ax):
+    x, y = np.random.default_rng(4).uniform(0.0, 1.0, (2, 900)) * [[8.0], [6.0]]
+    kept = np.hypot(x - 4.0, y - 3.0) > 1.6
+    x, y = x[kept], y[kept]
+    q = flowgrain.quiver(ax, x, y, 1.0 + np.sin(y), np.cos(0.7 * x), x, arrows=10)
+    assert len(lines(q)) == 10
+    for line in lines(q):
+        assert np.hypot(*(line - (4.0, 3.0)).T).min() > 1.2
+        middle, way = 0.5 * (line[1:] + line[:-1]), np.diff(line, axis=0)
+        there = np.stack([1.0 + np.sin(middle[:, 1]), np.cos(0.7 * middle[:, 0])], 1)
+        cosine = (way * there).sum(1) / np.hypot(*way.T) / np.hypot(*there.T)
+        assert np.median(cosine) > 0.98
+    assert np.allclose(q.get_array(), [line[:, 0].mean() for line in lines(q)], rtol=0, atol=0.4)
+    q.set_UVC(-np.cos(y), np.sin(x))
+    assert len(lines(q)) == 10
+    assert ax.dataLim.bounds == pytest.approx((x.min(), y.min(), np.ptp(x), np.ptp(y)))
+    with pytest.raises(ValueError, match="or that of X and Y"):
+        flowgrain.quiver(ax, x[1:], y, x, y)
+    with pytest.raises(ValueError, match="lie on one line"):
+        flowgrain.quiver(ax, x, x, x, y)
+
+
 def test_dates_and_pickles(ax):
     days = np.arange("2001-01-01", "2001-02-10", dtype="M8[D]")
     height = np.linspace(0.0, 5.0, 21)
@@ -356,6 +378,7 @@ def test_swapped_arguments(ax):
 @pytest.mark.parametrize("args, options, message", [
     ((np.zeros((5, 5)), np.zeros((5, 5))), {}, "zero or missing everywhere"),
     ((np.ones(5), np.ones(5)), {}, r"\(ny, nx\)"),
+    ((np.arange(5), np.arange(5), np.ones((5, 5, 5)), np.ones((5, 5, 5))), {}, r"\(ny, nx\)"),
     ((np.arange(4), np.arange(5), np.ones((5, 5)), np.ones((5, 5))), {}, "x has the shape"),
     ((np.ones((5, 5)), np.ones((5, 5)), np.ones((5, 4))), {}, "C has the shape"),
     ((np.ones((5, 5)), np.ones((5, 5))), {"arrows": 0}, "arrows is 0"),
@@ -418,6 +441,34 @@ class TestMaps:
         width = (last - first) % 360.0
         assert ((east + 180.0 - first) % 360.0 < width + 5.0).all()
         assert np.ptp((east + 180.0 - first) % 360.0) > 0.8 * width
+
+    def test_nothing_is_drawn_between_swaths(self):
+        across = np.append(np.linspace(-9.0, -4.0, 21), np.linspace(4.0, 9.0, 21))
+        lon, lat = np.meshgrid(across, np.linspace(-18.0, 18.0, 80))
+        lon = lon + 0.15 * lat
+        figure = plt.figure()
+        ax = figure.add_subplot(projection=self.ccrs.PlateCarree(180.0))
+        ax.set_extent([-12, 12, -20, 20], ax.projection)
+        q = flowgrain.quiver(ax, (lon + 360.0) % 360.0 - 180.0, lat, 8.0 + 0.0 * lon, np.sin(lat),
+                             arrows=20, transform=self.ccrs.PlateCarree())
+        off = np.concatenate([line[:, 0] - 0.15 * line[:, 1] for line in lines(q)])
+        assert (np.abs(off) > 3.8).all() and off.min() < -5.0 and off.max() > 5.0
+        plt.close(figure)
+
+    def test_points_round_the_pole(self, polar):
+        """Stations in triangles on the sphere: nothing is torn where longitudes begin."""
+        polar.set_extent([-180, 180, 50, 90], self.ccrs.PlateCarree())
+        a, b, c = np.random.default_rng(6).normal(size=(3, 4000))
+        lon = np.degrees(np.arctan2(b, a))
+        lat = np.degrees(np.arctan2(np.abs(c), np.hypot(a, b)))
+        lon, lat = lon[lat > 40.0], lat[lat > 40.0]
+        q = flowgrain.quiver(polar, lon, lat, np.cos(np.radians(lat)), 0.0 * lat, arrows=16,
+                             transform=self.ccrs.PlateCarree())
+        assert len(lines(q)) == 16
+        for line in lines(q):
+            radius = np.hypot(*line.T)
+            assert radius.min() < 1e6 or np.ptp(radius) < 0.05 * radius.mean()
+            assert line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0] > 0.0
 
     def test_flow_crosses_the_pole_and_the_cut(self, polar):
         """Arrows lie on the small circles about the axis of a rotation."""
