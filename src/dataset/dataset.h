@@ -105,6 +105,15 @@ typedef struct fg__dataset_file {
   bool was_read; /* numbers of it, since samples were chosen */
 } fg__dataset_file;
 
+/* Numbers that a user takes for missing values: fg_read_options.missing. */
+typedef struct fg__missing_numbers {
+  double number[FG__MOST_FILLS];
+  int count;
+  bool none; /* every number is a value */
+} fg__missing_numbers;
+
+bool fg__is_given_missing(const fg__missing_numbers *given, double value);
+
 /* The input and up to two files with what it lacks: the other component, the mesh. */
 struct fg__dataset {
   fg_context *context;
@@ -117,6 +126,7 @@ struct fg__dataset {
   size_t variable_count, variable_capacity;
   fg__variable *groups; /* only their attributes; of each file its own first */
   size_t group_count, group_capacity;
+  fg__missing_numbers missing;
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
@@ -184,6 +194,7 @@ typedef struct fg__packing {
   double least, largest; /* valid range */
   bool range_unpacked;   /* the range is of unpacked values, not of stored ones */
   double wrap;           /* added to negative values of _Unsigned data, or 0 */
+  const fg__missing_numbers *given;
 } fg__packing;
 
 typedef struct fg__missing_counts {

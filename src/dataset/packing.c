@@ -77,9 +77,18 @@ static void find_unsigned(fg__packing *p, const fg__variable *v)
   }
 }
 
+bool fg__is_given_missing(const fg__missing_numbers *given, double value)
+{
+  for (int n = 0; n < given->count; ++n)
+    if ((float)value >= (float)given->number[n] &&
+        (float)value <= (float)given->number[n])
+      return true;
+  return false;
+}
+
 fg__packing fg__packing_of(const fg__variable *variable)
 {
-  fg__packing p = {.scale = 1.0, .offset = 0.0};
+  fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
   const int scaled = fg__attribute_numbers(variable, "scale_factor", &p.scale, 1);
   const int moved = fg__attribute_numbers(variable, "add_offset", &p.offset, 1);
   find_fills(&p, variable);
@@ -102,6 +111,10 @@ double fg__unpack(const fg__packing *packing, double stored, fg__missing_counts 
       return (double)NAN;
     }
   const double value = stored * packing->scale + packing->offset;
+  if (packing->given->count > 0 && fg__is_given_missing(packing->given, value)) {
+    ++missing->fill;
+    return (double)NAN;
+  }
   const double ranged = packing->range_unpacked ? value : stored;
   if (ranged < packing->least || ranged > packing->largest) {
     ++missing->range;

@@ -159,6 +159,7 @@ typedef struct fg__grid {
   size_t samples;   /* product of the axes' sizes */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
   char hint[FG__TEXT_BYTES];
+  char doubts[FG__REASON_BYTES]; /* lines: what is unsure of all this */
 } fg__grid;
 
 /* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
@@ -204,6 +205,12 @@ fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
  * MEMORY, FILE_ACCESS. */
 fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset *data,
                             const fg__variable *u, const fg__variable *v);
+
+/* Whether most longitudes or latitudes in two dimensions are others than those of the
+ * coordinates along the grid's axes. MEMORY, FILE_ACCESS. */
+fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
+                                const fg__variable *variable,
+                                const fg__variable *const coordinate[2]);
 
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__alike_dimension(const fg__dataset *data, int a, int b);

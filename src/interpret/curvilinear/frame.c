@@ -183,6 +183,20 @@ static void set_rule(fg__curvilinear *mesh, const char *why)
              mesh->angle[0]->plain_name, why);
 }
 
+bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,
+                       const fg__pair *pair, fg_frame wanted)
+{
+  char name[FG__TEXT_BYTES];
+  if (wanted != FG_FRAME_AUTO || pair->polar.sense != 0)
+    return wanted == FG_FRAME_GRID;
+  const int standard = by_standard_name(pair->component[0], name, sizeof name);
+  if (standard != 0 || word_of_pair(pair, true))
+    return standard < 0;
+  fg__curvilinear mesh = {.part = {{.variable = pair->component[0], .grid = *grid}}};
+  find_angle(&mesh, data);
+  return mesh.turn != FG__TURN_NONE;
+}
+
 bool fg__frame_find(fg__curvilinear *mesh, const fg__dataset *data, const fg__pair *pair,
                     fg_frame wanted)
 {
