@@ -110,6 +110,20 @@ FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);
 
+/* Makes a field of vectors at scattered points, in any order. Of `points` size[0] is
+ * their number, from 3 on; axis[k] and velocity[k] are each point's coordinate and
+ * component along k, size[0] numbers each; valid has a byte a point; other sizes and
+ * periods do not count. Points on a grid along the axes become its samples. Others are
+ * interpolated onto an even raster, linearly in Delaunay's triangles, with scale GEO on
+ * the sphere, or in space, from 64 points on, by local linear fits; it is missing beyond
+ * them and in gaps (docs/design/points.md). Points in space that lie in a plane give a
+ * field in 2D in that plane. Points at one place become their mean. Copies what it needs.
+ * ARGUMENT (fewer than 3 points, a coordinate that is no number, more than a tenth of
+ * them at places of others with other values; and as fg_field_create), UNSUPPORTED (all
+ * on one line, too few in space), MEMORY, STOPPED. */
+FG_API fg_status fg_field_create_scattered(fg_field **out, fg_context *context,
+                                           const fg_field_arrays *points);
+
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
  * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen),
  * `projection`. */
