@@ -28,8 +28,10 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
     status = format->open(data, context, source, options);
   if (options && status == FG_STATUS_OK)
     status = check_options(data, context, format, source, options);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i)
-    fg__classify(&data->variables[i]);
+  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i) {
+    const fg__term term = fg__term_of(&data->variables[i]);
+    data->variables[i].geographic = fg__geographic_role(&term);
+  }
   return status == FG_STATUS_OK && data->space.is_there ? fg__space_domain_open(data)
                                                         : status;
 }

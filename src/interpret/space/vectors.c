@@ -2,6 +2,11 @@
 #include <string.h>
 
 #include "interpret/space/space.h"
+#include "terms/units.h"
+#include "terms/vectors.h"
+
+/* Before what is found by names: vectors that the file calls so, then other vectors. */
+enum { RANK_MARKED = -2, RANK_VECTOR = -1 };
 
 /* Whole numbers are no velocity unless the file says so, and x and y are positions. */
 bool fg__may_be_in_space(const fg__variable *v)
@@ -21,20 +26,21 @@ fg__pair fg__pair_of_elements(const fg__variable *first)
 bool fg__pair_of_vector(fg__pair *out, const fg__variable *v)
 {
   const bool space = v->location != FG__ON_GRID;
-  char units[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
+  const fg__term term = fg__term_of(v);
+  fg__unit unit = {.quantity = FG__QUANTITY_SPEED};
   if (v->element != 1 || v->components > 3 || !fg__is_number(v) || v->no_velocity ||
       (space && !fg__is_floating(v) && !v->is_marked))
     return false;
   *out = fg__pair_of_elements(v);
-  fg__attribute_text(v, "units", units, sizeof units);
-  out->is_velocity = space || !units[0] ||
-                     fg__units_read(units, label, sizeof label) == FG__QUANTITY_SPEED;
+  if (term.units && term.units[0])
+    fg__unit_read(&unit, term.units);
+  out->is_velocity = space || unit.quantity == FG__QUANTITY_SPEED;
   out->found_by = !space         ? "its last dimension"
                   : v->is_marked ? "Vectors attribute"
                                  : "vector variable";
-  out->rank = !space ? (out->is_velocity ? FG__RANK_NAMED_VELOCITY : FG__RANK_NAMED_OTHER)
-              : v->is_marked ? FG__RANK_MARKED
-                             : FG__RANK_VECTOR;
+  out->rank = !space ? (out->is_velocity ? FG__BY_VELOCITY_NAMES : FG__BY_OTHER_NAMES)
+              : v->is_marked ? RANK_MARKED
+                             : RANK_VECTOR;
   return true;
 }
 

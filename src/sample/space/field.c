@@ -64,7 +64,8 @@ static fg_status create_field(fg_field **out, const fg__dataset *data,
       .title = pair->component[0]->element ? pair->component[0]->name : NULL,
       .projection = grid->projection[0] ? grid->projection : NULL,
       .time = time[0] ? time : NULL,
-      .level = level[0] ? level : NULL};
+      .level = level[0] ? level : NULL,
+      .doubts = grid->doubts[0] ? grid->doubts : NULL};
   for (int k = 0; k < grid->dimension; ++k) {
     name_component(component[k], pair, grid, k);
     arrays.size[k] = (int)grid->axis[k].size;
@@ -128,8 +129,8 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
 }
 
 /* Counts missing samples, and in a plane what is normal to it. */
-static fg_status count_samples(fg_inventory_vector *entry, const fg__dataset *data,
-                               const fg__pair *pair, const fg__grid *grid)
+fg_status fg__space_count(fg_inventory_vector *vector, const fg__dataset *data,
+                          const fg__pair *pair, const fg__grid *grid)
 {
   const fg__space_domain *domain = grid->domain;
   const bool normal = domain->dimension == 2 && fg__pair_components(pair) == 3;
@@ -155,13 +156,13 @@ static fg_status count_samples(fg_inventory_vector *entry, const fg__dataset *da
     for (int k = 0; k < 3; ++k)
       free(velocity[k]);
   }
-  entry->missing_share = (double)missing / ((double)row * (double)all);
-  entry->normal_share = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+  vector->missing_share = (double)missing / ((double)row * (double)all);
+  vector->normal_share = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   return FG_STATUS_OK;
 }
 
 fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *data,
-                             const fg__pair *pair, const fg__grid *grid, bool reads)
+                             const fg__pair *pair, const fg__grid *grid)
 {
   const fg__space_domain *domain = grid->domain;
   const fg__variable *const *v = pair->component;
@@ -180,6 +181,5 @@ fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *dat
     if (status != FG_STATUS_OK)
       return status;
   }
-  return reads && !grid->unusable[0] ? count_samples(vector, data, pair, grid)
-                                     : FG_STATUS_OK;
+  return FG_STATUS_OK;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "sample/missing.h"
 #include "sample/space/space.h"
 
 /* Numbers that are fetched at once: those of all components of them stay in memory. */
@@ -241,6 +242,26 @@ static fg_status to_raster(float **out, float *samples, const request *r)
   return status;
 }
 
+static bool is_hiding(const fg__variable *v)
+{
+  return v->element < 2 && fg__attribute_find(v, "hiding_bits");
+}
+
+/* Missing numbers that the file does not declare; where it hides samples, it does. */
+static fg_status settle_missing(float *samples[3], const request *r, size_t count)
+{
+  fg__missing_numbers given = r->data->missing;
+  for (size_t n = 0; n < r->data->variable_count && given.count == 0; ++n)
+    given.none = given.none || is_hiding(&r->data->variables[n]);
+  fg__raw_samples raw = {
+      .path = r->data->file[0].path, .components = r->count, .count = count};
+  for (int k = 0; k < r->count; ++k) {
+    raw.name[k] = r->variable[k]->name;
+    raw.component[k] = samples[k];
+  }
+  return fg__missing_settle(r->data->context, &raw, &given);
+}
+
 /* Reads the variables onto the wanted rows' points. With `any`, the first result stands
  * for all: a number where one of them is. out[k] are to be freed also after a failure. */
 static fg_status read_onto_points(float *out[3], const request *r, bool any)
@@ -248,6 +269,8 @@ static fg_status read_onto_points(float *out[3], const request *r, bool any)
   const box b = box_of(r);
   const size_t count = b.size[0] * b.size[1] * b.size[2];
   fg_status status = read_box(out, r, &b);
+  if (status == FG_STATUS_OK && !any)
+    status = settle_missing(out, r, count);
   for (int k = 1; k < r->count && any; ++k) {
     for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
       if (isnan(out[0][i]))
@@ -282,8 +305,9 @@ static fg_status apply_hiding(float *velocity[3], request r)
   for (size_t n = 0; n < r.data->variable_count && status == FG_STATUS_OK; ++n) {
     double bits = 0.0;
     const fg__variable *v = &r.data->variables[n];
-    if (fg__attribute_numbers(v, "hiding_bits", &bits, 1) == 0 || v->element > 1)
+    if (!is_hiding(v))
       continue;
+    fg__attribute_numbers(v, "hiding_bits", &bits, 1);
     r.variable[0] = v;
     r.count = 1;
     r.means = as_hiding;

@@ -33,12 +33,15 @@ fg_status fg__space_samples(float *out[3], const fg__dataset *data, const fg__pa
                             const fg__grid *grid, const fg__row_range *rows,
                             const char *mask, bool normal);
 
-/* field.c. The field that options choose; and size, bounds, cells, missing and normal
- * share of a vector in an inventory, whose names of axes are static. */
+/* field.c. The field that options choose; and of a vector in an inventory components,
+ * size, bounds, names of axes and cells, and the share of missing samples and of the
+ * component normal to a plane. */
 fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                           const fg__grid *grid, const fg_read_options *options,
                           fg__slab_index slab);
 fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *data,
-                             const fg__pair *pair, const fg__grid *grid, bool reads);
+                             const fg__pair *pair, const fg__grid *grid);
+fg_status fg__space_count(fg_inventory_vector *vector, const fg__dataset *data,
+                          const fg__pair *pair, const fg__grid *grid);
 
 #endif
