@@ -21,6 +21,9 @@ void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
  * one; nothing for a width of 0. */
 void tell_key_width(const char *picture, double width);
 
+/* Bytes of the UTF-8 character (RFC 3629) at `text`; 0: there is none. */
+size_t character_bytes(const unsigned char *text);
+
 /* Copies a text from a file without terminal escapes: control characters become '?'.
  * Returns `out`; longer texts are cut. */
 enum { CLEAN_BYTES = 1024 };

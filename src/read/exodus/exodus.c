@@ -2,6 +2,7 @@
 #include "read/exodus/exodus.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -81,13 +82,14 @@ void fg__exodus_text(char out[FG__EXODUS_NAME], const fg__exodus *e, const char 
       e->file.dimensions[v->dimension[0]].length <= row)
     return;
   size_t length = e->file.dimensions[v->dimension[1]].length;
+  char raw[FG__EXODUS_NAME] = "";
   if (length >= FG__EXODUS_NAME)
     length = FG__EXODUS_NAME - 1;
   const size_t start[2] = {row, 0}, count[2] = {1, length};
   if (fg__nc_check_chunks(v, start, count) ||
-      nc_get_vara_text(v->group, v->id, start, count, out))
-    length = 0;
-  out[length] = '\0';
+      nc_get_vara_text(v->group, v->id, start, count, raw))
+    raw[0] = '\0';
+  fg__utf8_take(out, FG__EXODUS_NAME, raw, length);
   for (length = strlen(out); length > 0 && out[length - 1] == ' ';)
     out[--length] = '\0';
 }

@@ -183,21 +183,29 @@ static fg_status check_part(chunked *c, const size_t *start, const size_t *count
   return status;
 }
 
-/* libnetcdf stores a variable with the name of a dimension, which is no coordinate of it,
- * under another name. */
+/* Opens a variable by the bytes of its name in the file. libnetcdf stores a variable with
+ * the name of a dimension, which is no coordinate of it, under another name. */
 static hid_t open_set(hid_t file, const fg__nc_variable *v)
 {
   static const char *const before[] = {"", "_nc4_non_coord_"};
-  char name[2 * FG__NC_NAME];
-  const char *plain = v->plain_name;
-  for (size_t n = 0; n < sizeof before / sizeof *before; ++n) {
-    snprintf(name, sizeof name, "/%.*s%s%s", (int)(plain - v->name), v->name, before[n],
-             plain);
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set >= 0)
-      return set;
+  char own[NC_MAX_NAME + 1] = "", name[2 * NC_MAX_NAME];
+  size_t length = 0;
+  if (nc_inq_varname(v->group, v->id, own) ||
+      nc_inq_grpname_full(v->group, &length, NULL))
+    return -1;
+  char *path = fg__allocate(length + 1, 1);
+  hid_t set = -1;
+  const hid_t group = path && !nc_inq_grpname_full(v->group, &length, path)
+                          ? H5Gopen2(file, path, H5P_DEFAULT)
+                          : -1;
+  for (size_t n = 0; n < sizeof before / sizeof *before && group >= 0 && set < 0; ++n) {
+    snprintf(name, sizeof name, "%s%s", before[n], own);
+    set = H5Dopen2(group, name, H5P_DEFAULT);
   }
-  return -1;
+  if (group >= 0)
+    H5Gclose(group);
+  free(path);
+  return set;
 }
 
 int fg__nc_check_chunks(const fg__nc_variable *v, const size_t *start,
@@ -212,14 +220,17 @@ int fg__nc_check_chunks(const fg__nc_variable *v, const size_t *start,
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   chunked c = {
       .variable = v, .storage = storage, .set = open_set((hid_t)storage->file, v)};
+  const bool is_found = c.set >= 0;
   fg_status status = FG_STATUS_OK;
-  if (c.set >= 0) {
+  if (is_found) {
     if (describe(&c))
       status = check_part(&c, start, count);
     H5Dclose(c.set);
   }
   free(c.stored);
   H5Eset_auto2(H5E_DEFAULT, print, print_data);
+  if (!is_found)
+    return NC_EHDFERR;
   return status == FG_STATUS_OK       ? NC_NOERR
          : status == FG_STATUS_MEMORY ? NC_ENOMEM
                                       : NC_EFILTER;

@@ -1,5 +1,6 @@
 /* Opens a NetCDF file and lists its dimensions and variables, also those in groups. */
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "read/netcdf/netcdf.h"
 
 #include <netcdf_mem.h>
@@ -44,8 +45,10 @@ static fg_status list_dimensions(fg__nc_file *file, int root, int group, const c
   file->dimensions = grown;
   for (int i = 0; i < count && !error && memory; ++i) {
     fg__nc_dimension *d = &file->dimensions[file->dimension_count];
+    char name[NC_MAX_NAME + 1] = "";
     *d = (fg__nc_dimension){.id = ids[i], .root = root};
-    error = nc_inq_dim(group, ids[i], d->name, &d->length);
+    error = nc_inq_dim(group, ids[i], name, &d->length);
+    fg__utf8_take(d->name, sizeof d->name, name, sizeof name);
     for (int k = 0; k < unlimited_count; ++k)
       d->unlimited = d->unlimited || unlimited[k] == ids[i];
     ++file->dimension_count;
@@ -68,7 +71,7 @@ static int dimension_index(const fg__nc_file *file, int root, int id)
 static int describe_variable(fg__nc_variable *v, const fg__nc_file *file, int root,
                              int group, int id, const char *group_name)
 {
-  char name[NC_MAX_NAME + 1] = "";
+  char name[NC_MAX_NAME + 1] = "", own[NC_MAX_NAME + 1];
   int ids[NC_MAX_VAR_DIMS];
   v->group = group;
   v->id = id;
@@ -78,8 +81,8 @@ static int describe_variable(fg__nc_variable *v, const fg__nc_file *file, int ro
   error = nc_inq_var(group, id, name, &v->type, NULL, ids, NULL);
   if (error)
     return error;
-  snprintf(v->name, sizeof v->name, "%.*s%.*s", NC_MAX_NAME, group_name, NC_MAX_NAME,
-           name);
+  fg__utf8_take(own, sizeof own, name, sizeof name);
+  snprintf(v->name, sizeof v->name, "%.*s%s", NC_MAX_NAME, group_name, own);
   if (v->rank > FG__NC_RANK)
     v->rank = FG__NC_RANK + 1;
   for (int k = 0; k < v->rank && k < FG__NC_RANK; ++k) {
@@ -155,10 +158,11 @@ static fg_status list_group(fg__nc_file *file, int root, int group, const char *
     return fg__fail_memory(file->context, "groups", (size_t)count * sizeof *ids);
   int error = nc_inq_grps(group, &count, ids);
   for (int i = 0; i < count && !error && status == FG_STATUS_OK; ++i) {
-    char own[NC_MAX_NAME + 1] = "";
+    char raw[NC_MAX_NAME + 1] = "", own[NC_MAX_NAME + 1];
     char whole[FG__NC_NAME];
-    error = nc_inq_grpname(ids[i], own);
-    snprintf(whole, sizeof whole, "%.*s%.*s/", NC_MAX_NAME - 1, name, NC_MAX_NAME, own);
+    error = nc_inq_grpname(ids[i], raw);
+    fg__utf8_take(own, sizeof own, raw, sizeof raw);
+    snprintf(whole, sizeof whole, "%.*s%s/", NC_MAX_NAME - 1, name, own);
     if (!error)
       status = list_group(file, root, ids[i], whole, path, depth + 1);
   }
@@ -290,8 +294,7 @@ static bool read_text(const fg__nc_variable *v, const char *attribute, size_t le
   char *all = fg__allocate(length + 1, 1);
   const int error = all ? nc_get_att_text(v->group, v->id, attribute, all) : NC_ENOMEM;
   if (!error) {
-    all[length] = '\0';
-    snprintf(out, size, "%s", all);
+    fg__utf8_take(out, size, all, length);
   }
   free(all);
   return is_read(v, error, length + 1);
@@ -306,7 +309,8 @@ static bool read_strings(const fg__nc_variable *v, const char *attribute, size_t
   const int error =
       strings ? nc_get_att_string(v->group, v->id, attribute, strings) : NC_ENOMEM;
   if (!error) {
-    snprintf(out, size, "%s", strings[0] ? strings[0] : "");
+    const char *text = strings[0] ? strings[0] : "";
+    fg__utf8_take(out, size, text, strlen(text));
     nc_free_string(length, strings);
   }
   free(strings);

@@ -1,7 +1,7 @@
 /* Names that a file has for the samples of a dimension: strings, or rows of characters.
  */
 #include "base/memory.h"
-#include "file/utf8.h"
+#include "base/utf8.h"
 #include "read/netcdf/netcdf.h"
 
 #include <math.h>
@@ -48,15 +48,13 @@ static fg_status read_label(char out[FG__NC_TEXT], const fg__nc_file *file,
     error = nc_get_vara_text(v->group, v->id, start, count, out);
   else if (!error)
     error = nc_get_vara_string(v->group, v->id, start, count, &string);
-  if (string) {
-    snprintf(out, FG__NC_TEXT, "%s", string);
+  char raw[FG__NC_TEXT];
+  snprintf(raw, sizeof raw, "%s", string ? string : out);
+  if (string)
     nc_free_string(1, &string);
-  }
+  fg__utf8_take(out, FG__NC_TEXT, raw, sizeof raw);
   for (size_t n = strlen(out); n > 0 && out[n - 1] == ' '; --n)
     out[n - 1] = '\0';
-  if (!fg__utf8_is_valid(out)) /* in another encoding, or cut */
-    for (char *c = out; *c; ++c)
-      *c = (unsigned char)*c < 0x80 ? *c : '?';
   return error ? fg__nc_fail(file->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 

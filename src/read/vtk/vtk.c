@@ -2,6 +2,7 @@
 #include "read/vtk/vtk.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ fg_status fg__vtk_add_array(fg__vtk_array **out, fg__vtk *vtk, const char *name,
   vtk->arrays = arrays;
   fg__vtk_array *array = &vtk->arrays[vtk->array_count++];
   *array = (fg__vtk_array){.place = place, .components = 1};
-  array->name = fg__copy_text(name);
+  array->name = fg__utf8_copy(name);
   if (!array->name)
     return fg__fail_memory(vtk->context, "an array's name", strlen(name) + 1);
   *out = array;
