@@ -134,6 +134,20 @@ fg_status fg__source_open_known(fg__source *out, const fg__format **format,
   return status;
 }
 
+fg_status fg__check_one_file(fg_context *context, const fg__source *source,
+                             const fg_read_options *options, const char *files)
+{
+  if (options->vars_from)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file with the other component cannot be used with %s",
+                    source->path, files);
+  if (options->level != 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: level %d is asked for, but the file holds one only, number 0",
+                    source->path, options->level);
+  return FG_STATUS_OK;
+}
+
 /* Refuses a file with the mesh and named dimensions where the format has neither. */
 static fg_status check_choice(fg_context *context, const fg__format *format,
                               const fg__source *source, const fg_read_options *options)

@@ -3,9 +3,9 @@
 #ifndef FG__GRIB_H
 #define FG__GRIB_H
 
+#include "decode/signature.h"
+#include "interpret/polar.h"
 #include "read/format.h"
-#include "read/polar.h"
-#include "read/signature.h"
 #include "sphere/sphere.h"
 
 #include <eccodes.h>

@@ -1,4 +1,4 @@
-#include "read/netcdf/netcdf.h"
+#include "interpret/interpret.h"
 #include "read/netcdf/sample.h"
 
 /* A variable of a file: name, standard name, units. */

@@ -4,73 +4,73 @@
 #include <time.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/time/dates.h"
+#include "interpret/time/dates.h"
 
 static void units_are_classified_and_written_shortly(void **state)
 {
   (void)state;
   static const struct {
     const char *units;
-    fg__nc_quantity quantity;
+    fg__quantity quantity;
     const char *label;
   } cases[] = {
-      {"m/s", FG__NC_SPEED, "m/s"},
-      {"m s-1", FG__NC_SPEED, "m/s"},
-      {"m s**-1", FG__NC_SPEED, "m/s"},
-      {"m.s^-1", FG__NC_SPEED, "m/s"},
-      {"M/S", FG__NC_SPEED, "m/s"},
-      {"meter second-1", FG__NC_SPEED, "m/s"},
-      {"meters per second", FG__NC_SPEED, "m/s"},
-      {"centimeter/s", FG__NC_SPEED, "cm/s"},
-      {"km h-1", FG__NC_SPEED, "km/h"},
-      {"m day-1", FG__NC_SPEED, "m/d"},
-      {"m·s-1", FG__NC_SPEED, "m/s"},
-      {"m s⁻¹", FG__NC_SPEED, "m/s"},
-      {"m s^{-1}", FG__NC_SPEED, "m/s"},
-      {"s-1 m", FG__NC_SPEED, "m/s"},
-      {"dm/s", FG__NC_SPEED, "dm/s"},
-      {"nautical_miles/hour", FG__NC_SPEED, "nmi/h"},
-      {"knots", FG__NC_SPEED, "kn"},
-      {"kts", FG__NC_SPEED, "kn"},
-      {"°/s", FG__NC_ANGULAR_SPEED, "°/s"},
-      {"degrees/day", FG__NC_ANGULAR_SPEED, "°/d"},
-      {"rad s-1", FG__NC_ANGULAR_SPEED, "rad/s"},
-      {"m", FG__NC_LENGTH, "m"},
-      {"kilometers", FG__NC_LENGTH, "km"},
-      {"degrees", FG__NC_DEGREES, "°"},
-      {"micron", FG__NC_LENGTH, "µm"},
-      {"μm", FG__NC_LENGTH, "µm"},
-      {"DEGREES EAST", FG__NC_DEGREES_EAST, "°E"},
-      {"degrees_east", FG__NC_DEGREES_EAST, "°E"},
-      {"degrees-north", FG__NC_DEGREES_NORTH, "°N"},
-      {"degree_N", FG__NC_DEGREES_NORTH, "°N"},
-      {"millibar", FG__NC_PRESSURE, "hPa"},
-      {"PA", FG__NC_PRESSURE, "Pa"},
-      {"hectopascals", FG__NC_PRESSURE, "hPa"},
-      {"decibar", FG__NC_PRESSURE, "dbar"},
-      {"hours since 1900-01-01", FG__NC_DATE, "hours since 1900-01-01"},
-      {"day as %Y%m%d.%f", FG__NC_DATE, "day as %Y%m%d.%f"},
-      {"", FG__NC_UNKNOWN, ""},
-      {"1", FG__NC_UNKNOWN, "1"},
-      {"degrees_west", FG__NC_UNKNOWN, "degrees_west"},
-      {"days", FG__NC_UNKNOWN, "days"},
-      {"s-1", FG__NC_UNKNOWN, "s-1"},
-      {"s/m", FG__NC_UNKNOWN, "s/m"},
-      {"m2 s-2", FG__NC_UNKNOWN, "m2 s-2"},
-      {"N m-2", FG__NC_UNKNOWN, "N m-2"},
-      {"m s-2", FG__NC_UNKNOWN, "m s-2"},
-      {"m s", FG__NC_UNKNOWN, "m s"},
-      {"m/", FG__NC_UNKNOWN, "m/"},
-      {"m s-99999999999999999999", FG__NC_UNKNOWN, "m s-99999999999999999999"},
-      {"m per per", FG__NC_UNKNOWN, "m per per"},
-      {"m s-", FG__NC_UNKNOWN, "m s-"},
-      {"m s-1 s-1", FG__NC_UNKNOWN, "m s-1 s-1"},
-      {"m/s/s", FG__NC_UNKNOWN, "m/s/s"},
-      {"\xff\xfe", FG__NC_UNKNOWN, "\xff\xfe"},
+      {"m/s", FG__QUANTITY_SPEED, "m/s"},
+      {"m s-1", FG__QUANTITY_SPEED, "m/s"},
+      {"m s**-1", FG__QUANTITY_SPEED, "m/s"},
+      {"m.s^-1", FG__QUANTITY_SPEED, "m/s"},
+      {"M/S", FG__QUANTITY_SPEED, "m/s"},
+      {"meter second-1", FG__QUANTITY_SPEED, "m/s"},
+      {"meters per second", FG__QUANTITY_SPEED, "m/s"},
+      {"centimeter/s", FG__QUANTITY_SPEED, "cm/s"},
+      {"km h-1", FG__QUANTITY_SPEED, "km/h"},
+      {"m day-1", FG__QUANTITY_SPEED, "m/d"},
+      {"m·s-1", FG__QUANTITY_SPEED, "m/s"},
+      {"m s⁻¹", FG__QUANTITY_SPEED, "m/s"},
+      {"m s^{-1}", FG__QUANTITY_SPEED, "m/s"},
+      {"s-1 m", FG__QUANTITY_SPEED, "m/s"},
+      {"dm/s", FG__QUANTITY_SPEED, "dm/s"},
+      {"nautical_miles/hour", FG__QUANTITY_SPEED, "nmi/h"},
+      {"knots", FG__QUANTITY_SPEED, "kn"},
+      {"kts", FG__QUANTITY_SPEED, "kn"},
+      {"°/s", FG__QUANTITY_ANGULAR_SPEED, "°/s"},
+      {"degrees/day", FG__QUANTITY_ANGULAR_SPEED, "°/d"},
+      {"rad s-1", FG__QUANTITY_ANGULAR_SPEED, "rad/s"},
+      {"m", FG__QUANTITY_LENGTH, "m"},
+      {"kilometers", FG__QUANTITY_LENGTH, "km"},
+      {"degrees", FG__QUANTITY_DEGREES, "°"},
+      {"micron", FG__QUANTITY_LENGTH, "µm"},
+      {"μm", FG__QUANTITY_LENGTH, "µm"},
+      {"DEGREES EAST", FG__QUANTITY_DEGREES_EAST, "°E"},
+      {"degrees_east", FG__QUANTITY_DEGREES_EAST, "°E"},
+      {"degrees-north", FG__QUANTITY_DEGREES_NORTH, "°N"},
+      {"degree_N", FG__QUANTITY_DEGREES_NORTH, "°N"},
+      {"millibar", FG__QUANTITY_PRESSURE, "hPa"},
+      {"PA", FG__QUANTITY_PRESSURE, "Pa"},
+      {"hectopascals", FG__QUANTITY_PRESSURE, "hPa"},
+      {"decibar", FG__QUANTITY_PRESSURE, "dbar"},
+      {"hours since 1900-01-01", FG__QUANTITY_DATE, "hours since 1900-01-01"},
+      {"day as %Y%m%d.%f", FG__QUANTITY_DATE, "day as %Y%m%d.%f"},
+      {"", FG__QUANTITY_UNKNOWN, ""},
+      {"1", FG__QUANTITY_UNKNOWN, "1"},
+      {"degrees_west", FG__QUANTITY_UNKNOWN, "degrees_west"},
+      {"days", FG__QUANTITY_UNKNOWN, "days"},
+      {"s-1", FG__QUANTITY_UNKNOWN, "s-1"},
+      {"s/m", FG__QUANTITY_UNKNOWN, "s/m"},
+      {"m2 s-2", FG__QUANTITY_UNKNOWN, "m2 s-2"},
+      {"N m-2", FG__QUANTITY_UNKNOWN, "N m-2"},
+      {"m s-2", FG__QUANTITY_UNKNOWN, "m s-2"},
+      {"m s", FG__QUANTITY_UNKNOWN, "m s"},
+      {"m/", FG__QUANTITY_UNKNOWN, "m/"},
+      {"m s-99999999999999999999", FG__QUANTITY_UNKNOWN, "m s-99999999999999999999"},
+      {"m per per", FG__QUANTITY_UNKNOWN, "m per per"},
+      {"m s-", FG__QUANTITY_UNKNOWN, "m s-"},
+      {"m s-1 s-1", FG__QUANTITY_UNKNOWN, "m s-1 s-1"},
+      {"m/s/s", FG__QUANTITY_UNKNOWN, "m/s/s"},
+      {"\xff\xfe", FG__QUANTITY_UNKNOWN, "\xff\xfe"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char label[FG__NC_TEXT];
-    const fg__nc_quantity quantity = fg__nc_units(cases[i].units, label, sizeof label);
+    char label[FG__TEXT_BYTES];
+    const fg__quantity quantity = fg__units_read(cases[i].units, label, sizeof label);
     if (quantity != cases[i].quantity || strcmp(label, cases[i].label) != 0)
       fail_msg("\"%s\" became %d \"%s\"", cases[i].units, (int)quantity, label);
   }
@@ -79,8 +79,8 @@ static void units_are_classified_and_written_shortly(void **state)
 static void assert_date(double value, const char *units, const char *calendar,
                         const char *wanted)
 {
-  char out[FG__NC_TEXT] = "";
-  const bool known = fg__nc_date(value, units, calendar, out, sizeof out);
+  char out[FG__TEXT_BYTES] = "";
+  const bool known = fg__date_of_number(value, units, calendar, out, sizeof out);
   if (known != (wanted != NULL) || (wanted && strcmp(out, wanted) != 0))
     fail_msg("%g %s (%s) became \"%s\"", value, units, calendar, out);
 }
@@ -148,8 +148,8 @@ static void dates_agree_with_the_c_library(void **state)
     char out[64];
     assert_non_null(gmtime_r(&seconds, &broken));
     assert_true(strftime(wanted, sizeof wanted, "%Y-%m-%d %H:%M", &broken) > 0);
-    assert_true(
-        fg__nc_date(day + 205.0 / 1440.0, "days since 1970-01-01", "", out, sizeof out));
+    assert_true(fg__date_of_number(day + 205.0 / 1440.0, "days since 1970-01-01", "", out,
+                                   sizeof out));
     assert_string_equal(out, wanted);
   }
 }
@@ -192,8 +192,8 @@ static void durations_have_parts(void **state)
                {1e300, "s", NULL},
                {(double)NAN, "s", NULL}};
   for (size_t n = 0; n < sizeof times / sizeof *times; ++n) {
-    char out[FG__NC_TEXT] = "";
-    const bool known = fg__nc_duration(times[n].value, times[n].units, out, sizeof out);
+    char out[FG__TEXT_BYTES] = "";
+    const bool known = fg__duration(times[n].value, times[n].units, out, sizeof out);
     if (known != (times[n].wanted != NULL) ||
         (known && strcmp(out, times[n].wanted) != 0))
       fail_msg("%g %s became \"%s\"", times[n].value, times[n].units, out);

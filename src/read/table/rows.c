@@ -8,8 +8,8 @@
 
 #include "base/memory.h"
 #include "file/number_text.h"
+#include "interpret/time_words.h"
 #include "read/table/table.h"
-#include "read/time_words.h"
 
 enum {
   ROLES = 11,

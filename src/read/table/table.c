@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 #include "file/number_text.h"
-#include "read/time_words.h"
+#include "interpret/time_words.h"
 
 enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 

@@ -4,8 +4,9 @@
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
-#include "read/points/points.h"
-#include "read/polar.h"
+#include "interpret/polar.h"
+#include "read/format.h"
+#include "sample/points/points.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */

@@ -7,10 +7,10 @@
 #ifndef FG__VTK_H
 #define FG__VTK_H
 
-#include "read/cells/set.h"
+#include "decode/signature.h"
+#include "interpret/time_words.h"
 #include "read/format.h"
-#include "read/signature.h"
-#include "read/time_words.h"
+#include "sample/cells/set.h"
 
 typedef enum fg__vtk_type {
   FG__VTK_UNKNOWN = 0, /* String, Bit, ... */

@@ -1,0 +1,207 @@
+#include "interpret/inventory.h"
+#include "base/memory.h"
+#include "base/utf8.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct value_list {
+  fg_axis_value *value; /* NULL: none */
+  char *text;
+} value_list;
+
+typedef struct entry {
+  fg_inventory_vector vector;
+  char *name[3];
+  char *units;
+  char *found_by;
+  char *unusable, *frame, *plane, *absent, *chosen;
+  value_list time, level;
+} entry;
+
+struct fg_inventory {
+  char *format;
+  entry *entries;
+  size_t count;
+  size_t capacity;
+};
+
+void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
+{
+  if (reason[0])
+    return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(reason, FG__REASON_BYTES, format, arguments);
+  va_end(arguments);
+}
+
+fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
+                               const char *format)
+{
+  fg_inventory *inventory = fg__allocate(1, sizeof *inventory);
+  if (inventory)
+    inventory->format = fg__copy_text(format);
+  if (!inventory || !inventory->format) {
+    fg_inventory_destroy(inventory);
+    return fg__fail_memory(context, "an inventory", sizeof *inventory);
+  }
+  *out = inventory;
+  return FG_STATUS_OK;
+}
+
+/* Copies a text to `next`; returns where the one after it goes. */
+static char *copy_word(const char **out, char *next, const char *text)
+{
+  const size_t length = strlen(text);
+  fg__utf8_take(next, 2 * length + 1, text, length);
+  *out = next;
+  return next + strlen(next) + 1;
+}
+
+/* Copies values with their texts, all in one allocation; NULL gives NULL. False: no
+ * memory. */
+static bool copy_values(value_list *out, const fg_axis_value *values, int count)
+{
+  if (!values || count < 1)
+    return true;
+  size_t bytes = 0;
+  for (int n = 0; n < count; ++n)
+    bytes += 2 * (strlen(values[n].units) + strlen(values[n].words) + 1);
+  out->value = fg__allocate((size_t)count, sizeof *out->value);
+  out->text = fg__allocate(bytes, 1);
+  if (!out->value || !out->text)
+    return false;
+  char *next = out->text;
+  for (int n = 0; n < count; ++n) {
+    out->value[n].value = values[n].value;
+    next = copy_word(&out->value[n].units, next, values[n].units);
+    next = copy_word(&out->value[n].words, next, values[n].words);
+  }
+  return true;
+}
+
+static void clear_entry(entry *e)
+{
+  free(e->time.value);
+  free(e->time.text);
+  free(e->level.value);
+  free(e->level.text);
+  for (int k = 0; k < 3; ++k)
+    free(e->name[k]);
+  free(e->units);
+  free(e->found_by);
+  free(e->unusable);
+  free(e->frame);
+  free(e->plane);
+  free(e->absent);
+  free(e->chosen);
+}
+
+fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
+                            const fg_inventory_vector *vector)
+{
+  entry e = {.vector = *vector};
+  bool copied = true;
+  for (int k = 0; k < 3; ++k) {
+    e.name[k] = fg__utf8_copy(vector->name[k]);
+    copied = copied && (e.name[k] || !vector->name[k]);
+    e.vector.name[k] = e.name[k];
+  }
+  copied = copied && copy_values(&e.time, vector->time_value, vector->times) &&
+           copy_values(&e.level, vector->level_value, vector->levels);
+  e.vector.time_value = e.time.value;
+  e.vector.level_value = e.level.value;
+  e.units = fg__utf8_copy(vector->units ? vector->units : "");
+  e.found_by = fg__utf8_copy(vector->found_by ? vector->found_by : "");
+  e.unusable = fg__utf8_copy(vector->unusable);
+  e.frame = fg__utf8_copy(vector->frame);
+  e.plane = fg__utf8_copy(vector->plane);
+  e.absent = fg__utf8_copy(vector->absent);
+  e.chosen = fg__utf8_copy(vector->chosen);
+  copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
+           (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
+           (e.absent || !vector->absent) && (e.chosen || !vector->chosen);
+  e.vector.units = e.units;
+  e.vector.found_by = e.found_by;
+  e.vector.unusable = e.unusable;
+  e.vector.frame = e.frame;
+  e.vector.plane = e.plane;
+  e.vector.absent = e.absent;
+  e.vector.chosen = e.chosen;
+  void *entries = inventory->entries;
+  if (!copied ||
+      !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {
+    clear_entry(&e);
+    return fg__fail_memory(context, "an inventory's entry", sizeof e);
+  }
+  inventory->entries = entries;
+  inventory->entries[inventory->count++] = e;
+  return FG_STATUS_OK;
+}
+
+/* Whether `vars` is a vector's name, or its names with commas. */
+static bool is_named(const fg_inventory_vector *vector, const char *vars)
+{
+  const char *rest = vars;
+  for (int k = 0; k < 3 && vector->name[k]; ++k) {
+    const size_t length = strlen(vector->name[k]);
+    if (strncmp(rest, vector->name[k], length) != 0)
+      return false;
+    rest += length;
+    if (k < 2 && vector->name[k + 1] && *rest++ != ',')
+      return false;
+  }
+  return rest > vars && !*rest;
+}
+
+void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options)
+{
+  size_t kept = inventory->count;
+  for (size_t n = inventory->count; n-- > 0;) {
+    const fg_inventory_vector *vector = &inventory->entries[n].vector;
+    if (options->vars ? is_named(vector, options->vars) : !vector->unusable)
+      kept = n;
+  }
+  for (size_t n = 0; n < inventory->count; ++n)
+    if (n != kept)
+      clear_entry(&inventory->entries[n]);
+  if (kept < inventory->count) {
+    const entry only = inventory->entries[kept];
+    inventory->entries[0] = only;
+    inventory->count = 1;
+  } else {
+    inventory->count = 0;
+  }
+}
+
+void fg_inventory_destroy(fg_inventory *inventory)
+{
+  if (!inventory)
+    return;
+  for (size_t i = 0; i < inventory->count; ++i)
+    clear_entry(&inventory->entries[i]);
+  free(inventory->entries);
+  free(inventory->format);
+  free(inventory);
+}
+
+const char *fg_inventory_format(const fg_inventory *inventory)
+{
+  return inventory ? inventory->format : "";
+}
+
+int fg_inventory_vector_count(const fg_inventory *inventory)
+{
+  return inventory ? (int)inventory->count : 0;
+}
+
+const fg_inventory_vector *fg_inventory_vector_at(const fg_inventory *inventory,
+                                                  int index)
+{
+  if (!inventory || index < 0 || (size_t)index >= inventory->count)
+    return NULL;
+  return &inventory->entries[index].vector;
+}
