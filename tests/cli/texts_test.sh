@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Texts that are not UTF-8, of a file or its name: what is written is UTF-8, and the file is found
-# again.
+# again. Lists of names in messages are short.
 source "$(dirname "$0")/harness.sh"
 
 deg=$(printf '\260') # ° of Latin-1
@@ -81,5 +81,35 @@ try run strömung.csv --arrows 9 --formats svg -o results --title "A$deg" --resu
 expect_code 1
 expect_error 'holds the results of a run on'
 done_with "a name in UTF-8 is another file"
+
+# Names are 24 letters long; a message names a dozen of 300, and how many there are besides.
+long_names() { # BEFORE BETWEEN
+  for k in $(seq 300); do printf '%s%s_%020d' "$([ "$k" = 1 ] || printf '%s' "$2")" "$1" "$k"; done
+}
+lists_few() { # ARGUMENTS...
+  try info "$@"
+  expect_code 1
+  expect_one_complaint
+  expect_error 'and 28[0-9] more'
+  [ "$(wc -c <err)" -lt 700 ] || fault "$(wc -c <err) bytes"
+}
+{
+  long_names col , && echo
+  for row in 1 2 3 4; do seq -s , "$row" $((row + 299)); done
+} >many.csv
+lists_few many.csv
+lists_few many.csv --vars a,b
+{
+  printf '# vtk DataFile Version 3.0\nmany\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\n'
+  printf 'ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 4\nFIELD all 300\n'
+  for name in $(long_names arr ' '); do printf '%s 1 4 float\n1 2 3 4\n' "$name"; done
+} >many.vtk
+lists_few many.vtk
+lists_few many.vtk --vars a,b
+write_netcdf '
+  @dims = (["y", 2], ["x", 2]);
+  @vars = map { [sprintf("var_%020d", $_), [0, 1], 5, [], [1 .. 4]] } 1 .. 300;' >many.nc
+lists_few many.nc
+done_with "hundreds of names"
 
 finish

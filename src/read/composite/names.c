@@ -2,13 +2,14 @@
 #include "read/composite/names.h"
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "file/number_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEPTH = 64, NAMES_BYTES = 512 };
+enum { MOST_DEPTH = 64 };
 
 void fg__vtk_names_clear(fg__vtk_names *list)
 {
@@ -187,13 +188,11 @@ static bool is_in(const char *block, const char *wanted)
 fg_status fg__vtk_names_choose_block(fg__vtk_names *list, fg_context *context,
                                      const char *path, const char *wanted)
 {
-  char names[NAMES_BYTES] = "";
-  size_t used = 0;
+  fg__names names = {0};
   if (!wanted)
     return FG_STATUS_OK;
-  for (size_t i = 0; i < list->count && used < sizeof names; ++i)
-    used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
-                             list->entry[i].block);
+  for (size_t i = 0; i < list->count; ++i)
+    fg__names_add(&names, ", ", "%s", list->entry[i].block);
   size_t kept = 0;
   for (size_t i = 0; i < list->count; ++i)
     keep_or_drop(list, &kept, i, *wanted && is_in(list->entry[i].block, wanted));
@@ -201,7 +200,7 @@ fg_status fg__vtk_names_choose_block(fg__vtk_names *list, fg_context *context,
   if (list->count > 0)
     return FG_STATUS_OK;
   fg__fail(context, FG_STATUS_ARGUMENT, "%s: there is no block \"%.100s\"", path, wanted);
-  fg__hint(context, "the blocks are: %s", names);
+  fg__hint(context, "the blocks are: %s", names.text);
   return FG_STATUS_ARGUMENT;
 }
 
