@@ -42,7 +42,7 @@ static size_t bytes_at(const char *text, size_t left)
   return fg__utf8_bytes(next);
 }
 
-/* Whether `left` bytes are the beginning of a character. */
+/* Whether the `left` bytes at the end of a text are the beginning of a character. */
 static bool is_cut(const char *text, size_t left)
 {
   const unsigned char first = (unsigned char)text[0];
@@ -52,32 +52,21 @@ static bool is_cut(const char *text, size_t left)
   return cut;
 }
 
-/* Whether a text is UTF-8, perhaps cut within its last character; *count then becomes the
- * bytes of the whole ones. In a text of ASCII before, that last byte is one of Latin-1:
- * "m/s at 5\xB0". */
-static bool take_whole_characters(size_t *count, const char *text)
-{
-  bool is_ascii = true;
-  for (size_t at = 0, bytes; at < *count; at += bytes) {
-    bytes = bytes_at(text + at, *count - at);
-    if (bytes == 0 && (is_ascii || !is_cut(text + at, *count - at)))
-      return false;
-    if (bytes == 0)
-      *count = at;
-    is_ascii = is_ascii && bytes == 1;
-  }
-  return true;
-}
-
 void fg__utf8_take(char *out, size_t size, const char *text, size_t count)
 {
   const char *end = memchr(text, '\0', count);
-  size_t length = end ? (size_t)(end - text) : count, used = 0;
-  const bool is_utf8 = take_whole_characters(&length, text);
+  const size_t length = end ? (size_t)(end - text) : count;
+  size_t used = 0;
+  bool has_characters = false; /* beyond ASCII */
   for (size_t at = 0, bytes; at < length; at += bytes) {
     const unsigned char byte = (unsigned char)text[at];
-    const bool is_latin = !is_utf8 && byte >= 0x80;
-    bytes = is_utf8 ? bytes_at(text + at, length - at) : 1;
+    bytes = bytes_at(text + at, length - at);
+    const bool is_latin = bytes == 0;
+    /* after ASCII alone a last byte is one of Latin-1: "m/s at 5\xB0" */
+    if (is_latin && has_characters && is_cut(text + at, length - at))
+      break;
+    has_characters = has_characters || bytes > 1;
+    bytes += is_latin;
     if (used + bytes + is_latin >= size)
       break;
     memcpy(out + used, text + at, bytes);

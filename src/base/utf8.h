@@ -11,10 +11,10 @@ size_t fg__utf8_bytes(const unsigned char *text);
 /* Whether all of a text is UTF-8. */
 bool fg__utf8_is_valid(const char *text);
 
-/* Copies `count` bytes of a text, up to a NUL among them, as UTF-8 into a buffer. A text
- * that is not UTF-8 counts as Latin-1, which other programs write ° and µ in. A text too
- * long for the buffer is cut between two characters. Names, units and all other texts of
- * files enter the program so. */
+/* Copies `count` bytes of a text, up to a NUL among them, as UTF-8 into a buffer. A byte
+ * that is none of a character counts as Latin-1, which other programs write ° and µ in. A
+ * text is cut between two characters where the buffer ends, or where it ends itself
+ * within one. Names, units and all other texts of files enter the program so. */
 void fg__utf8_take(char *out, size_t size, const char *text, size_t count);
 
 /* The same of a whole text, uncut; NULL for NULL or when there is no memory. End with

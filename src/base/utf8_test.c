@@ -57,16 +57,16 @@ static void texts_of_files_become_utf8(void **state)
        "C",
        2, 16,
        "\xC2\xB0"
-       "C"},                                                   /* Latin-1 */
-      {"m/s at 5\xB0", 9, 16, "m/s at 5\xC2\xB0"},             /* to its last byte */
-      {"\xFFng\xC2\xB0", 5, 16, "\xC3\xBFng\xC3\x82\xC2\xB0"}, /* all of it */
+       "C"},                                           /* Latin-1 */
+      {"m/s at 5\xB0", 9, 16, "m/s at 5\xC2\xB0"},     /* to its last byte */
+      {"\xFFng\xC2\xB0", 5, 16, "\xC3\xBFng\xC2\xB0"}, /* beside a character */
       {"unit\0old", 8, 16, "unit"},
       {"cut here", 3, 16, "cut"},
       {"cut", 3, 3, "cu"},
       {"\xC2\xB0 \xC2\xB0", 5, 5, "\xC2\xB0 "}, /* between two characters */
       {"\xB0 \xB0", 3, 5, "\xC2\xB0 "},
       {"\xC2\xB0 \xE2\x82", 5, 16, "\xC2\xB0 "}, /* cut before */
-      {"\xC2\xB0 \xE2\x82 ", 6, 16, "\xC3\x82\xC2\xB0 \xC3\xA2\xC2\x82 "},
+      {"\xC2\xB0 \xE2\x82 ", 6, 16, "\xC2\xB0 \xC3\xA2\xC2\x82 "},
       {"", 0, 1, ""},
   };
   (void)state;
