@@ -5,6 +5,7 @@
 #include "base/names.h"
 #include "file/number_text.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -223,23 +224,39 @@ static bool is_within(const char *name)
   return depth > 0;
 }
 
-/* The path of a file that the file at `path` names. */
+/* The same once links have been followed. A file that cannot be found is left to the
+ * opening of it. */
+static bool is_linked_within(char *path, size_t folder)
+{
+  char file[PATH_MAX], above[PATH_MAX];
+  if (!realpath(path, file))
+    return true;
+  const char kept = path[folder];
+  path[folder] = '\0';
+  const bool found = realpath(folder > 0 ? path : ".", above) != NULL;
+  path[folder] = kept;
+  size_t length = found ? strlen(above) : 0;
+  length -= length == 1; /* the root's own name ends with a slash */
+  return found && strncmp(file, above, length) == 0 && file[length] == '/';
+}
+
 fg_status fg__vtk_names_path(char **out, fg_context *context, const char *path,
                              const char *name)
 {
   const char *slash = strrchr(path, '/');
   const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-  if (!is_within(name)) {
-    fg__fail(context, FG_STATUS_UNSUPPORTED,
-             "%s: names the file \"%.200s\", which is not in its folder or below", path,
-             name);
-    fg__hint(context, "put the files that it names beside it, and name them so");
-    return FG_STATUS_UNSUPPORTED;
-  }
   *out = fg__allocate(folder + strlen(name) + 1, 1);
   if (!*out)
     return fg__fail_memory(context, "a file's name", folder + strlen(name));
   memcpy(*out, path, folder);
   memcpy(*out + folder, name, strlen(name) + 1);
-  return FG_STATUS_OK;
+  if (is_within(name) && is_linked_within(*out, folder))
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_UNSUPPORTED,
+           is_within(name)
+               ? "%s: names the file \"%.200s\", which links lead out of its folder"
+               : "%s: names the file \"%.200s\", which is not in its folder or below",
+           path, name);
+  fg__hint(context, "put the files that it names beside it, and name them so");
+  return FG_STATUS_UNSUPPORTED;
 }
