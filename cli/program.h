@@ -62,6 +62,9 @@ void report_infinite(const char *file, const fg_field *field);
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
 
+/* What is wrong with a file of which mapped bytes are no longer there: after its name. */
+#define BECAME_SHORTER "became shorter while it was read, or its disk failed"
+
 /* Performs a command line, where argv[0] is the program; returns its exit code. */
 int program_perform(int argc, char **argv);
 

@@ -60,7 +60,7 @@ fg_status fg__vtk_end_piece(fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
-void fg__vtk_close(fg__vtk *vtk)
+fg_status fg__vtk_close(fg__vtk *vtk, fg_status status)
 {
   for (size_t i = 0; i < vtk->array_count; ++i) {
     free(vtk->arrays[i].name);
@@ -78,9 +78,9 @@ void fg__vtk_close(fg__vtk *vtk)
   for (size_t i = 0; i < vtk->file_count; ++i) {
     fg__vtk_file *file = &vtk->files[i];
     if (file->vtk)
-      fg__vtk_close(file->vtk);
+      (void)fg__vtk_close(file->vtk, status);
     free(file->vtk);
-    fg__source_close(&file->source);
+    status = fg__source_close(&file->source, vtk->context, status);
     free(file->path);
   }
   free(vtk->files);
@@ -88,6 +88,7 @@ void fg__vtk_close(fg__vtk *vtk)
   if (vtk->document)
     xmlFreeDoc(vtk->document);
   *vtk = (fg__vtk){0};
+  return status;
 }
 
 const fg__vtk_array *fg__vtk_find(const fg__vtk *vtk, size_t piece, fg__vtk_place place,
