@@ -8,12 +8,17 @@
 #include "base/memory.h"
 #include "decode/netcdf/netcdf.h"
 
+#include <netcdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
-enum { CHECKSUM_BYTES = 4, WINDOW_BYTES = 1 << 16 };
+enum {
+  CHECKSUM_BYTES = 4,
+  WINDOW_BYTES = 1 << 16,
+  GROUP_BYTES = 16 * NC_MAX_NAME /* of a group's name with those it is in */
+};
 
 /* A chunked data set, and the part of it that is read. */
 typedef struct chunked {
@@ -183,21 +188,23 @@ static fg_status check_part(chunked *c, const size_t *start, const size_t *count
   return status;
 }
 
-/* libnetcdf stores a variable with the name of a dimension, which is no coordinate of it,
- * under another name. */
+/* Opens a variable by the bytes of its name in the file. libnetcdf stores a variable with
+ * the name of a dimension, which is no coordinate of it, under another name. */
 static hid_t open_set(hid_t file, const fg__variable *v)
 {
   static const char *const before[] = {"", "_nc4_non_coord_"};
-  char name[2 * FG__NAME_BYTES];
-  const char *plain = v->plain_name;
-  for (size_t n = 0; n < sizeof before / sizeof *before; ++n) {
-    snprintf(name, sizeof name, "/%.*s%s%s", (int)(plain - v->name), v->name, before[n],
-             plain);
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set >= 0)
-      return set;
+  char group[GROUP_BYTES], own[NC_MAX_NAME + 1], name[GROUP_BYTES + 2 * NC_MAX_NAME];
+  size_t length = 0;
+  hid_t set = -1;
+  if (nc_inq_grpname_full(v->place, &length, NULL) || length >= sizeof group ||
+      nc_inq_grpname_full(v->place, &length, group) ||
+      nc_inq_varname(v->place, v->id, own))
+    return -1;
+  for (size_t n = 0; n < sizeof before / sizeof *before && set < 0; ++n) {
+    snprintf(name, sizeof name, "%s/%s%s", group, before[n], own);
+    set = H5Dopen2(file, name, H5P_DEFAULT);
   }
-  return -1;
+  return set;
 }
 
 fg_status fg__nc_check_chunks(const fg__variable *v, const size_t *start,
@@ -213,13 +220,17 @@ fg_status fg__nc_check_chunks(const fg__variable *v, const size_t *start,
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   chunked c = {
       .variable = v, .storage = storage, .set = open_set((hid_t)storage->file, v)};
+  const bool is_found = c.set >= 0;
   fg_status status = FG_STATUS_OK;
-  if (c.set >= 0) {
+  if (is_found) {
     if (describe(&c))
       status = check_part(&c, start, count);
     H5Dclose(c.set);
   }
   free(c.stored);
   H5Eset_auto2(H5E_DEFAULT, print, print_data);
+  if (!is_found)
+    return fg__fail(v->owner->context, FG_STATUS_FILE_FORMAT,
+                    "%s: damaged: HDF5 cannot find '%.200s'", v->path, v->name);
   return status;
 }
