@@ -15,6 +15,7 @@
 #include <zlib.h>
 
 enum {
+  CHUNKS_AT_ONCE = 1024, /* HDF5 takes 7 kB of memory for each, and its time */
   CHECKSUM_BYTES = 4,
   WINDOW_BYTES = 1 << 16,
   GROUP_BYTES = 16 * NC_MAX_NAME /* of a group's name with those it is in */
@@ -205,6 +206,52 @@ static hid_t open_set(hid_t file, const fg__variable *v)
     set = H5Dopen2(file, name, H5P_DEFAULT);
   }
   return set;
+}
+
+/* Along the first dimension of more than one sample the parts of `out` lie one behind the
+ * other. */
+static int get_part(const fg__variable *v, const size_t *length, size_t *start,
+                    size_t *count, double *out)
+{
+  const int rank = v->rank + (v->element > 0);
+  size_t chunks = 1, row = 1;
+  int along = 0;
+  while (along + 1 < rank && count[along] == 1)
+    ++along;
+  for (int k = 0; k < rank; ++k) {
+    if (count[k] == 0)
+      return NC_NOERR;
+    chunks *= (start[k] + count[k] - 1) / length[k] - start[k] / length[k] + 1;
+    row *= k > along ? count[k] : 1;
+  }
+  /* the first part ends with a chunk */
+  const size_t middle = start[along] + count[along] / 2, all = count[along];
+  const size_t first = middle - middle % length[along];
+  if (chunks <= CHUNKS_AT_ONCE || first <= start[along])
+    return nc_get_vara_double(v->place, v->id, start, count, out);
+  const size_t before = first - start[along];
+  count[along] = before;
+  int error = get_part(v, length, start, count, out);
+  start[along] += before;
+  count[along] = all - before;
+  if (!error)
+    error = get_part(v, length, start, count, out + before * row);
+  start[along] -= before;
+  count[along] = all;
+  return error;
+}
+
+int fg__nc_get_numbers(const fg__variable *v, const size_t *start, const size_t *count,
+                       double *out)
+{
+  size_t length[NC_MAX_VAR_DIMS], from[FG__RANK + 1], counts[FG__RANK + 1];
+  int storage = NC_CONTIGUOUS;
+  if (v->rank > FG__RANK || nc_inq_var_chunking(v->place, v->id, &storage, length) ||
+      storage != NC_CHUNKED)
+    return nc_get_vara_double(v->place, v->id, start, count, out);
+  memcpy(from, start, sizeof from);
+  memcpy(counts, count, sizeof counts);
+  return get_part(v, length, from, counts, out);
 }
 
 fg_status fg__nc_check_chunks(const fg__variable *v, const size_t *start,
