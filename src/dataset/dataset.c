@@ -277,3 +277,14 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
   const fg__dataset_file *file = &variable->owner->file[variable->file];
   return file->decoder->fetch_texts(variable, first, count, out, size);
 }
+
+size_t fg__variable_record(const fg__variable *variable, size_t n)
+{
+  const fg__decoder *decoder = variable->owner->file[variable->file].decoder;
+  return decoder->record ? decoder->record(variable, n) : n;
+}
+
+bool fg__has_no_titles(const fg__variable *variable)
+{
+  return variable->owner->file[variable->file].decoder->has_no_titles;
+}

@@ -4,8 +4,8 @@
 #define ZLIB_CONST
 #include <zlib.h>
 
+#include "decode/numpy/numpy.h"
 #include "file/checksum.h"
-#include "read/npy/npy.h"
 
 enum {
   END_BYTES = 22,
