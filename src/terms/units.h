@@ -48,6 +48,9 @@ double fg__unit_factor(const char *from, const char *to);
  * vector. */
 bool fg__units_differ(const char *a, const char *b);
 
+/* The units that a name implies, "kn" of METAR's sknt; "": none. */
+const char *fg__units_of_name(const char *name);
+
 /* Whether a word is a unit that stands behind a name without brackets: "X mm". */
 bool fg__is_unit_in_name(const char *word);
 
