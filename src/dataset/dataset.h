@@ -5,6 +5,7 @@
 #define FG__DATASET_H
 
 #include "base/context.h"
+#include "field/cell_types.h"
 #include "terms/coordinates.h"
 
 enum {
@@ -34,6 +35,7 @@ typedef struct fg__dimension {
   size_t chosen; /* the first sample that is read: 0, or the chosen one */
   bool is_chosen;
   bool unlimited;
+  bool is_nameless; /* its name is the decoder's: it may get that of a coordinate */
 } fg__dimension;
 
 typedef enum fg__type {
@@ -65,9 +67,9 @@ typedef struct fg__variable {
   fg__type type;
   int rank;                /* FG__RANK + 1 when it has more */
   int dimension[FG__RANK]; /* indices into the dataset's dimensions */
-  int element; /* from 1: of a vector variable, whose last dimension (of its components)
-                  is not counted in `rank`; 0: it is a whole variable */
-  int components; /* of a vector variable; of others 0 */
+  int element;    /* from 1: of a vector variable, whose dimension of components is not
+                     counted    in `rank`, and which may also be there as a whole: 0 */
+  int components; /* of a vector variable in space; of others 0 */
   fg__location location;
   bool is_marked;   /* the file calls it the vector */
   bool no_velocity; /* the file says that it is something else, such as normals */
@@ -91,6 +93,15 @@ typedef struct fg__decoder {
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);
+  bool has_no_titles; /* but names and units alone */
+  /* Of a text: what sample number n of a column stands in, "line", and its number;
+   * NULL: samples are counted. */
+  const char *records;
+  size_t (*record)(const fg__variable *variable, size_t n);
+  /* Returns `status`, or fg__source_check of further files that it has opened; may be
+   * NULL.
+   */
+  fg_status (*check)(const void *state, fg_status status);
 } fg__decoder;
 
 typedef struct fg__dataset_file {
@@ -100,13 +111,6 @@ typedef struct fg__dataset_file {
   void *state;   /* the decoder's */
   bool was_read; /* numbers of it, since samples were chosen */
 } fg__dataset_file;
-
-enum { FG__POLYHEDRON = 42 };
-
-/* What to do about cells that cannot be read. */
-#define FG__RESAMPLE                                                                     \
-  "resample it to an image, with ParaView's filter Resample To Image or "                \
-  "vtkResampleToImage, and save that as .vti"
 
 /* Cells between points in space, numbered as VTK numbers their types and their corners
  * (vtkCellType.h). */
@@ -159,9 +163,9 @@ struct fg__dataset {
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied; pointers are borrowed until the next of
- * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
- * too many), MEMORY. */
+ * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are
+ * borrowed until the next of their kind is added, and NULL, with the message, where
+ * memory lacks. ARGUMENT (one file too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
                             size_t size, const fg__decoder *decoder);
 fg__dimension *fg__dataset_add_dimension(fg__dataset *dataset, const char *name,
@@ -230,6 +234,12 @@ fg_status fg__variable_fetch_one(const fg__variable *variable, const size_t *ind
  * are the file's. */
 fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size);
+
+/* Whether variables of that one's file have nothing that could be a title. */
+bool fg__has_no_titles(const fg__variable *variable);
+
+/* The number of the record that has sample n of a variable. */
+size_t fg__variable_record(const fg__variable *variable, size_t n);
 
 /* packing.c. How a variable's samples are packed, and which are missing (CF conventions,
  * chapters 2.5 and 8.1). */

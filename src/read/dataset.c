@@ -36,8 +36,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
     status = fg__dataset_open(data, context, format, &source, NULL);
-  fg__source_close(&source);
-  return status;
+  return fg__source_close(&source, context, status);
 }
 
 /* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
@@ -83,7 +82,7 @@ static fg_status check_index(const fg__dataset *data, const char *what, int inde
 {
   if (index >= 0 && (size_t)index < count)
     return FG_STATUS_OK;
-  if (position < 0)
+  if (position < 0 && count < 2)
     return fg__fail(data->context, FG_STATUS_ARGUMENT,
                     "%s: %s %d asked for, but the field has no %s axis",
                     data->file[0].path, what, index, what);
@@ -121,11 +120,6 @@ static void keep_missing(const fg_field *field, const fg__velocity_samples *read
   }
 }
 
-static const char *projection_of(const fg__grid *grid)
-{
-  return grid->dimension == 2 && grid->projection[0] ? grid->projection : NULL;
-}
-
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg_read_options *options,
                             fg__slab_index slab)
@@ -150,7 +144,9 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
     fg_field_arrays arrays = {.dimension = grid->dimension,
                               .valid = read.valid,
                               .scale = grid->scale,
-                              .projection = projection_of(grid),
+                              .projection = grid->dimension == 2 && grid->projection[0]
+                                                ? grid->projection
+                                                : NULL,
                               .velocity_units = words.units,
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
@@ -229,8 +225,7 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
   fg__grid_clear(grid);
-  fg__dataset_end(data);
-  return status;
+  return fg__dataset_end(data, status);
 }
 
 fg_status fg__dataset_read(fg_field **out, fg_context *context,
@@ -288,7 +283,7 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *d
     fg__velocity_samples read = {0};
     status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
-      bool missing = false;
+      bool missing = read.valid && !read.valid[i];
       for (int k = 0; k < grid->dimension; ++k)
         missing = missing || !isfinite(read.velocity[k][i]);
       count += missing;
@@ -310,11 +305,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   if (!vector->unusable && grid->domain)
     status = fg__space_times(&times, &time_text, data);
   else if (!vector->unusable)
-    status = fg__grid_axis_values(&times, &time_text, data, grid->time_variable,
-                                  (size_t)vector->times);
+    status = fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
-    status = fg__grid_axis_values(&levels, &level_text, data, grid->level_variable,
-                                  (size_t)vector->levels);
+    status = fg__index_values(&levels, &level_text, data, grid, false);
   vector->time_value = times;
   vector->level_value = levels;
   if (status == FG_STATUS_OK)
@@ -409,7 +402,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .components = grid->dimension,
       .name = {pair->component[0]->name,
                pair->component[0]->element ? NULL : pair->component[1]->name,
-               grid->dimension == 3 ? pair->component[2]->name : NULL},
+               grid->dimension == 3 && pair->component[2] ? pair->component[2]->name
+                                                          : NULL},
       .units = texts.units,
       .found_by = pair->found_by,
       .dimension = grid->dimension,
@@ -472,8 +466,7 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
     status = describe_pair(inventory, &data, &pairs[i]);
   free(pairs);
-  fg__dataset_end(&data);
-  return status;
+  return fg__dataset_end(&data, status);
 }
 
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,

@@ -9,10 +9,12 @@
 typedef struct fg__dataset_format {
   const char *name;
   bool (*is_mine)(const unsigned char *bytes, size_t size);
-  /* Adds a file to a dataset, which has to be closed also after a failure. options: which
-   * time or block is wanted where only one is opened; NULL: the first. */
-  fg_status (*open)(fg__dataset *dataset, fg_context *context, const fg__source *source,
-                    const fg_read_options *options);
+  /* Adds a file to a dataset, which has to be closed also after a failure. */
+  fg_status (*open)(fg__dataset *dataset, fg_context *context, const fg__source *source);
+  /* The same where only the time or block that options name is opened (NULL: the first).
+   */
+  fg_status (*open_chosen)(fg__dataset *dataset, fg_context *context,
+                           const fg__source *source, const fg_read_options *options);
   const char *alone; /* how its files are called where none can be added; NULL: one can */
 } fg__dataset_format;
 
@@ -21,7 +23,7 @@ typedef struct fg__dataset_format {
 fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source,
                            const fg_read_options *options);
-void fg__dataset_end(fg__dataset *data);
+fg_status fg__dataset_end(fg__dataset *data, fg_status status);
 
 /* The functions of fg__format. options: NULL for all vectors. */
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,

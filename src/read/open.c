@@ -25,19 +25,27 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
   if (options)
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)
-    status = format->open(data, context, source, options);
+    status = format->open_chosen ? format->open_chosen(data, context, source, options)
+                                 : format->open(data, context, source);
   if (options && status == FG_STATUS_OK)
     status = check_options(data, context, format, source, options);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i) {
-    const fg__term term = fg__term_of(&data->variables[i]);
-    data->variables[i].geographic = fg__geographic_role(&term);
-  }
+  if (status == FG_STATUS_OK)
+    status = fg__settle_names(data);
   return status == FG_STATUS_OK && data->space.is_there ? fg__space_domain_open(data)
                                                         : status;
 }
 
-void fg__dataset_end(fg__dataset *data)
+/* Files but the first, which the caller has opened, may have become shorter. */
+fg_status fg__dataset_end(fg__dataset *data, fg_status status)
 {
+  for (int n = 0; n < data->files; ++n) {
+    const fg__dataset_file *file = &data->file[n];
+    if (n > 0)
+      status = fg__source_check(data->context, status, file->path, file->size);
+    if (file->state && file->decoder->check)
+      status = file->decoder->check(file->state, status);
+  }
   fg__space_domain_close(data);
   fg__dataset_close(data);
+  return status;
 }

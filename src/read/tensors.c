@@ -116,6 +116,5 @@ fg_status fg__dataset_tensors(fg_field *row[2], bool *found, fg_context *context
   *found = v != NULL;
   if (v)
     status = make_rows(row, &data, v);
-  fg__dataset_end(&data);
-  return status;
+  return fg__dataset_end(&data, status);
 }

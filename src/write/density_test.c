@@ -57,7 +57,7 @@ static void close_written(written *w)
   free(w->cluster);
   free(w->u);
   fg__dataset_close(&w->data);
-  fg__source_close(&w->source);
+  fg__source_close(&w->source, NULL, FG_STATUS_OK);
 }
 
 /* 6 x 5 nodes, periodic along x: a cluster across the boundary, one within, a masked

@@ -11,7 +11,13 @@ static void close_file(void *state)
   free(state);
 }
 
-static const fg__decoder DECODER = {.fetch = fg__vtk_fetch, .close = close_file};
+static fg_status check_files(const void *state, fg_status status)
+{
+  return fg__vtk_check(state, status);
+}
+
+static const fg__decoder DECODER = {
+    .fetch = fg__vtk_fetch, .check = check_files, .close = close_file};
 
 fg_status fg__vtk_begin(fg__vtk **out, fg__dataset *data, fg_context *context,
                         const fg__source *source)

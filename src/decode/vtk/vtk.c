@@ -2,6 +2,7 @@
 #include "decode/vtk/vtk.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ fg_status fg__vtk_add_array(fg__vtk_array **out, fg__vtk *vtk, const char *name,
   vtk->arrays = arrays;
   fg__vtk_array *array = &vtk->arrays[vtk->array_count++];
   *array = (fg__vtk_array){.place = place, .components = 1};
-  array->name = fg__copy_text(name);
+  array->name = fg__utf8_copy(name);
   if (!array->name)
     return fg__fail_memory(vtk->context, "an array's name", strlen(name) + 1);
   *out = array;
@@ -59,6 +60,15 @@ fg_status fg__vtk_end_piece(fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
+fg_status fg__vtk_check(const fg__vtk *vtk, fg_status status)
+{
+  for (size_t i = 0; i < vtk->file_count; ++i) {
+    const fg__source *source = &vtk->files[i].source;
+    status = fg__source_check(vtk->context, status, source->path, source->size);
+  }
+  return status;
+}
+
 void fg__vtk_close(fg__vtk *vtk)
 {
   for (size_t i = 0; i < vtk->array_count; ++i) {
@@ -78,7 +88,7 @@ void fg__vtk_close(fg__vtk *vtk)
     if (file->vtk)
       fg__vtk_close(file->vtk);
     free(file->vtk);
-    fg__source_close(&file->source);
+    (void)fg__source_close(&file->source, vtk->context, FG_STATUS_OK);
     free(file->path);
   }
   free(vtk->files);

@@ -24,8 +24,7 @@ int fg__pair_components(const fg__pair *pair)
   return pair->component[2] ? 3 : 2;
 }
 
-/* The axis, from 0, that a name means by the letter in which it differs from another; -1:
- * none. */
+/* The axis that a name means by the letter in which it differs from another; -1: none. */
 static int axis_of(const char *name, const char *other)
 {
   static const char letters[] = "xyzXYZ";
@@ -37,20 +36,27 @@ static int axis_of(const char *name, const char *other)
   return letter ? (int)(letter - letters) % 3 : -1;
 }
 
-/* Two components that are named by axes lie along these. */
+/* Two components that are found by names, and whose names are those of axes, lie along
+ * these. */
 static void check_names(fg__grid *grid, const fg__space_domain *domain,
                         const fg__pair *pair)
 {
+  static const char letters[] = "xyz";
   const char *u = pair->component[0]->name, *v = pair->component[1]->name;
-  const int along[2] = {axis_of(u, v), axis_of(v, u)};
+  int along[2] = {axis_of(u, v), axis_of(v, u)};
+  if (pair->across > 0)
+    for (int k = 0, n = 0; k < 3; ++k)
+      if (k != pair->across - 1)
+        along[n++] = k;
   if (along[0] < 0 || along[1] < 0 || strcmp(pair->found_by, "names") != 0 ||
       (along[0] == domain->axis[0] && along[1] == domain->axis[1]))
     return;
-  fg__set_unusable(grid->unusable,
-                   "'%.60s' and '%.60s' are not the components in its plane, which is "
-                   "that of %s and %s",
-                   u, v, fg__space_domain_axis_name(domain, 0),
-                   fg__space_domain_axis_name(domain, 1));
+  fg__set_unusable(
+      grid->unusable,
+      "'%.60s' and '%.60s' are the components along %c and %c, which are not "
+      "those of its plane, %s and %s",
+      u, v, letters[along[0]], letters[along[1]], fg__space_domain_axis_name(domain, 0),
+      fg__space_domain_axis_name(domain, 1));
   snprintf(grid->hint, sizeof grid->hint, "--vars %.80s,%.80s draws them as if they were",
            u, v);
 }

@@ -3,8 +3,10 @@
 
 #include "read/dataset.h"
 
-static const fg__dataset_format FORMAT = {"Exodus", fg__is_exodus, fg__exodus_open,
-                                          "Exodus files"};
+static const fg__dataset_format FORMAT = {.name = "Exodus",
+                                          .is_mine = fg__is_exodus,
+                                          .open_chosen = fg__exodus_open,
+                                          .alone = "Exodus files"};
 
 FG__DATASET_HOOKS(FORMAT)
 

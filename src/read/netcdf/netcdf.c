@@ -8,14 +8,7 @@ static bool is_netcdf(const unsigned char *bytes, size_t size)
   return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
 }
 
-static fg_status open_netcdf(fg__dataset *data, fg_context *context,
-                             const fg__source *source, const fg_read_options *options)
-{
-  (void)options;
-  return fg__nc_open(data, context, source);
-}
-
-static const fg__dataset_format FORMAT = {"NetCDF", is_netcdf, open_netcdf, NULL};
+static const fg__dataset_format FORMAT = {"NetCDF", is_netcdf, fg__nc_open};
 
 FG__DATASET_HOOKS(FORMAT)
 

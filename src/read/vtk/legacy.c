@@ -3,8 +3,10 @@
 
 #include "read/dataset.h"
 
-static const fg__dataset_format FORMAT = {"VTK legacy", fg__is_vtk_legacy,
-                                          fg__vtk_open_legacy, "VTK files"};
+static const fg__dataset_format FORMAT = {.name = "VTK legacy",
+                                          .is_mine = fg__is_vtk_legacy,
+                                          .open_chosen = fg__vtk_open_legacy,
+                                          .alone = "VTK files"};
 
 FG__DATASET_HOOKS(FORMAT)
 

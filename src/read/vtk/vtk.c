@@ -3,8 +3,10 @@
 
 #include "read/dataset.h"
 
-static const fg__dataset_format FORMAT = {"VTK XML", fg__is_vtk_xml, fg__vtk_open,
-                                          "VTK files"};
+static const fg__dataset_format FORMAT = {.name = "VTK XML",
+                                          .is_mine = fg__is_vtk_xml,
+                                          .open_chosen = fg__vtk_open,
+                                          .alone = "VTK files"};
 
 FG__DATASET_HOOKS(FORMAT)
 

@@ -4,7 +4,8 @@
 #ifndef FG__CELL_SET_H
 #define FG__CELL_SET_H
 
-#include "dataset/dataset.h"
+#include "base/context.h"
+#include "field/cell_types.h"
 #include "field/plane.h"
 
 enum { FG__CELL_CORNERS = 8 };
