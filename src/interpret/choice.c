@@ -229,7 +229,7 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
   }
   const int names = split_names(name, vars), places = names > 3 ? names / 2 : 0;
   const int count = names - places;
-  if (names == 0)
+  if (names == 0 || (places > 0 && data->space.is_there))
     return fail_names(data, all, vars);
   *out = (fg__pair){.found_by = "request", .volume = count == 3};
   for (int k = 0; k < names; ++k) {
