@@ -15,8 +15,9 @@
 #include <string.h>
 
 static const fg__format *const FORMATS[] = {
-    &fg__format_exodus,     &fg__format_netcdf, &fg__format_grib, &fg__format_vti,
-    &fg__format_vtk_legacy, &fg__format_npy,    &fg__format_npz,  &fg__format_table};
+    &fg__format_exodus, &fg__format_netcdf,     &fg__format_grib,
+    &fg__format_vti,    &fg__format_vtk_legacy, &fg__format_vtk_series,
+    &fg__format_npy,    &fg__format_npz,        &fg__format_table};
 static const char SYNTHETIC[] = "synth:";
 enum { MESSAGE_BYTES = 2048, KNOWN_BYTES = 512 };
 

@@ -451,26 +451,29 @@ static fg_status read_header(legacy_file *file)
   return FG_STATUS_OK;
 }
 
-fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
-                              const fg__source *source, const fg_read_options *options)
+fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source)
 {
-  (void)options;
   const uint16_t one = 1;
-  fg__vtk *vtk = NULL;
-  fg_status status = fg__vtk_begin(&vtk, data, context, source);
-  if (status != FG_STATUS_OK)
-    return status;
   vtk->swap = *(const unsigned char *)&one == 1; /* files are big-endian */
   for (int k = 0; k < 3; ++k)
     vtk->spacing[k] = 1.0;
   legacy_file file = {.vtk = vtk,
-                      .cursor = {.context = context,
-                                 .path = source->path,
+                      .cursor = {.context = vtk->context,
+                                 .path = vtk->path,
                                  .bytes = (const char *)source->bytes,
                                  .size = source->size},
                       .place = FG__VTK_FIELD};
-  status = read_header(&file);
+  const fg_status status = read_header(&file);
+  return status == FG_STATUS_OK ? read_sections(&file) : status;
+}
+
+fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
+                              const fg__source *source, const fg_read_options *options)
+{
+  fg__vtk *vtk = NULL;
+  fg_status status = fg__vtk_begin(&vtk, data, context, source);
+  (void)options;
   if (status == FG_STATUS_OK)
-    status = read_sections(&file);
+    status = fg__vtk_read_legacy(vtk, source);
   return status == FG_STATUS_OK ? fg__vtk_fill(data, vtk) : status;
 }
