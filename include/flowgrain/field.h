@@ -43,6 +43,9 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask;      /* variable that is zero, negative or missing outside the domain;
                             NULL:      none, or one that a model's file is known for */
+  const char *missing; /* "-9999,1e20": numbers that stand for missing values besides those
+                          that the file declares; "none": every number is a value, also
+                          one that recurs apart from all others; NULL: none is given */
   fg_scale scale;
   const char *block; /* of a file in blocks, the block of this name and those within it;
                         NULL: all together */
@@ -97,6 +100,8 @@ typedef struct fg_field_arrays {
   const char *level;            /* the chosen level in words; NULL: none */
   const char *projection; /* scale MAP: a PROJ string that takes longitude and latitude to
                              the axes' coordinates; NULL: not known */
+  const char *doubts;       /* what is unsure of how a file was read, a line each; NULL:
+                               nothing */
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds
@@ -106,6 +111,20 @@ typedef struct fg_field_arrays {
 FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);
+
+/* Makes a field of vectors at scattered points, in any order. Of `points` size[0] is
+ * their number, from 3 on; axis[k] and velocity[k] are each point's coordinate and
+ * component along k, size[0] numbers each; valid has a byte a point; other sizes and
+ * periods do not count. Points on a grid along the axes become its samples. Others are
+ * interpolated onto an even raster, linearly in Delaunay's triangles, with scale GEO on
+ * the sphere, or in space, from 64 points on, by local linear fits; it is missing beyond
+ * them and in gaps (docs/design/points.md). Points in space that lie in a plane give a
+ * field in 2D in that plane. Points at one place become their mean. Copies what it needs.
+ * ARGUMENT (fewer than 3 points, a coordinate that is no number, more than a tenth of
+ * them at places of others with other values; and as fg_field_create), UNSUPPORTED (all
+ * on one line, too few in space), MEMORY, STOPPED. */
+FG_API fg_status fg_field_create_scattered(fg_field **out, fg_context *context,
+                                           const fg_field_arrays *points);
 
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
  * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen),

@@ -1,3 +1,4 @@
+import pathlib
 import subprocess
 import sys
 
@@ -8,26 +9,32 @@ import flowgrain
 from conftest import vortices
 
 xr = pytest.importorskip("xarray")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def dataset(**names):
-    u, v, x, y = vortices(33, 25)
+    x, y, u, v = vortices(33, 25)
     return xr.Dataset({names.get("u", "u"): (("y", "x"), u), names.get("v", "v"): (("y", "x"), v)},
                       {"x": x, "y": y})
 
 
-@pytest.mark.parametrize("u, v", [
-    ("u", "v"), ("u10", "v10"), ("10u", "10v"), ("uwnd", "vwnd"), ("UGRD", "VGRD"),
-    ("U_GRD_6_ISBL", "V_GRD_6_ISBL"), ("vozocrtx", "vomecrty"), ("windu", "windv"), ("vx", "vy"),
-    ("water_u", "water_v"), ("UVEL", "VVEL"), ("windEastward", "windNorthward"),
-])
-def test_components_are_found_by_name(u, v):
+# every format of the program gives the same answers (src/read/names_test.c)
+NAMES = [line.split(" = ") for line in (ROOT / "tests" / "vectors.txt").read_text().splitlines()
+         if " = " in line and line[0] != "#"]
+
+
+@pytest.mark.parametrize("names, wanted", NAMES)
+def test_components_are_found_by_name(names, wanted):
     from flowgrain._dataset import find_pair
 
-    found = dataset(u=u, v=v)
-    found["temperature"] = found[u]
-    found[u + "_qc"], found[v + "_err"] = found[u], found[v]
-    assert find_pair(found) == (u, v)
+    u, x, y = vortices(5, 4)[1:]
+    found = xr.Dataset({name: (("lat", "lon"), u) for name in names.split()},
+                       {"lon": x, "lat": y})
+    if wanted in "-?":
+        with pytest.raises(ValueError, match="no pair" if wanted == "-" else "could be meant"):
+            find_pair(found)
+    else:
+        assert ",".join(find_pair(found)) == wanted
 
 
 def test_components_are_found_by_standard_name():
@@ -66,8 +73,8 @@ def test_two_heights_of_one_standard_name():
     for name in found.data_vars:
         way = "eastward" if name[0] == "u" else "northward"
         found[name].attrs["standard_name"] = way + "_wind"
-    u, v = find_pair(found)
-    assert (u[1:], u[0], v[0]) == (v[1:], "u", "v")
+    with pytest.raises(ValueError, match=r"2 vectors could be meant: u100,v100 \| u10,v10;"):
+        find_pair(found)
 
 
 def test_arrows_are_those_of_the_arrays():
@@ -116,6 +123,22 @@ def test_longitude_and_latitude():
     curved = xr.Dataset({"u": (("j", "i"), flat.a.values), "v": (("j", "i"), flat.b.values)},
                         {"nav_lon": (("j", "i"), lon), "nav_lat": (("j", "i"), lat)})
     assert curved.flowgrain.arrows(n=6).to_geojson()["projection"] == "+proj=longlat"
+
+
+def test_longitudes_in_another_order():
+    turned = globe().assign_coords(i=(globe().i + 180.0) % 360.0 - 180.0)
+    turned["i"].attrs = globe()["i"].attrs
+    found = turned.flowgrain.arrows(n=6)
+    expected = turned.sortby("i").flowgrain.arrows(n=6)
+    assert found.bounds.tolist() == [[-180.0, 180.0], [-80.0, 80.0]]
+    assert all(map(np.array_equal, found.paths, expected.paths))
+    east = turned.isel(i=slice(10, 26)).flowgrain.arrows(n=6)  # across the antimeridian
+    assert east.bounds.tolist() == [[100.0, 250.0], [-80.0, 80.0]]
+    with pytest.raises(ValueError, match=r"ds.sortby\('i'\)"):
+        globe().isel(i=[0, 5, 3, 9, 7, 8]).flowgrain.arrows(n=6)
+    bad = globe().assign_coords(j=np.where(globe().j < -70.0, np.nan, globe().j))
+    with pytest.raises(ValueError, match=r"j\[16\] is nan"):
+        bad.flowgrain.quiver(x="i", y="j")
 
 
 def test_map():
@@ -217,7 +240,22 @@ def test_components_along_the_grid_are_turned():
         plane.drop_vars(["x", "y"]).flowgrain.arrows("a", "b", n=3)
 
 
+def test_longitudes_may_count_to_the_west():
+    found = dataset().rename(x="lon", y="lat")
+    found["lat"].attrs["units"] = "degrees_north"
+    found["lon"].attrs["units"] = "degrees_east"
+    west = found.assign_coords(lon=-found["lon"])
+    west["lon"].attrs["units"] = "degrees_west"
+    for named in ({}, {"x": "lon", "y": "lat"}):
+        one, other = (d.flowgrain.arrows(n=4, **named) for d in (found, west))
+        assert [a.path.tolist() for a in one] == [a.path.tolist() for a in other]
+
+
 def test_refusals():
+    mixed = dataset()
+    mixed["u"].attrs["units"], mixed["v"].attrs["units"] = "m s-1", "cm/s"
+    with pytest.raises(ValueError, match="u is in m s-1, v in cm/s"):
+        mixed.flowgrain.arrows()
     with pytest.raises(ValueError, match="both u and v"):
         dataset().flowgrain.arrows("u")
     with pytest.raises(ValueError, match="both x and y"):

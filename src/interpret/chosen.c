@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/names.h"
 #include "flowgrain/inventory.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
 
 #include <math.h>
 #include <stdio.h>
