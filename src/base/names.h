@@ -1,6 +1,6 @@
 /* A list of names in a message: a dozen, and how many there are besides. */
-#ifndef FG__NAMES_H
-#define FG__NAMES_H
+#ifndef FG__NAME_LIST_H
+#define FG__NAME_LIST_H
 
 #include <stddef.h>
 
