@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "read/npy/npy.h"
 #include "read/table/table.h"
 
@@ -75,30 +76,27 @@ static bool is_vector(fg__npy_choice *out, fg__npy_array *a)
   return true;
 }
 
-static void describe(char *out, size_t size, const fg__npy_file *file)
+static fg__names list_arrays(const fg__npy_file *file)
 {
-  size_t used = 0;
-  out[0] = '\0';
-  for (size_t i = 0; i < file->count && used + 200 < size; ++i) {
+  fg__names names = {0};
+  for (size_t i = 0; i < file->count; ++i) {
     const fg__npy_array *a = &file->array[i];
-    if (!a->name[0])
-      continue;
-    used +=
-        (size_t)snprintf(out + used, size - used, "%s%s (", used ? ", " : "", a->name);
-    for (int k = 0; k < a->rank && k < FG__NPY_RANK; ++k)
-      used +=
-          (size_t)snprintf(out + used, size - used, "%s%zu", k ? " x " : "", a->shape[k]);
-    used += (size_t)snprintf(out + used, size - used, "%s)",
-                             a->kind == FG__NPY_COMPLEX ? " complex" : "");
+    char shape[FG__NPY_RANK * 24] = "";
+    for (int k = 0; k < a->rank && k < FG__NPY_RANK; ++k) {
+      const size_t used = strlen(shape);
+      snprintf(shape + used, sizeof shape - used, "%s%zu", k ? " x " : "", a->shape[k]);
+    }
+    if (a->name[0])
+      fg__names_add(&names, ", ", "%s (%s%s)", a->name, shape,
+                    a->kind == FG__NPY_COMPLEX ? " complex" : "");
   }
+  return names;
 }
 
 static fg_status fail_none(const fg__npy_file *file)
 {
-  char arrays[1024];
-  describe(arrays, sizeof arrays, file);
   fg__fail(file->context, FG_STATUS_UNSUPPORTED, "%s: no vectors among its arrays: %s",
-           file->path, arrays);
+           file->path, list_arrays(file).text);
   fg__hint(file->context, "u and v by name; or one array of 2 x ny x nx, ny x nx x 2, ny "
                           "x nx complex, or points x 4 (x, y, u, v)");
   return FG_STATUS_UNSUPPORTED;

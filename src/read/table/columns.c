@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "read/table/table.h"
 #include "terms/coordinates.h"
 #include "terms/units.h"
@@ -193,22 +194,20 @@ int fg__table_find(const fg__table *table, const char *name)
   return plain;
 }
 
-static void list_names(char *out, size_t size, const fg__table *table)
+static fg__names list_names(const fg__table *table)
 {
-  size_t used = 0;
-  out[0] = '\0';
-  for (int c = 0; c < table->columns && used + FG__TABLE_NAME + 8 < size; ++c)
-    used += (size_t)snprintf(out + used, size - used, "%s%s", c ? ", " : "",
-                             table->column[c].name);
+  fg__names names = {0};
+  for (int c = 0; c < table->columns; ++c)
+    fg__names_add(&names, ", ", "%s", table->column[c].name);
+  return names;
 }
 
 static fg_status fail_unknown(const fg__table *table, const char *name)
 {
-  char names[512];
-  list_names(names, sizeof names, table);
   fg__fail(table->context, FG_STATUS_ARGUMENT, "%s: no column \"%.100s\"", table->path,
            name);
-  fg__hint(table->context, "its columns: %s; or their numbers from 1", names);
+  fg__hint(table->context, "its columns: %s; or their numbers from 1",
+           list_names(table).text);
   return FG_STATUS_ARGUMENT;
 }
 
@@ -284,14 +283,12 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
 static fg_status fail_ambiguous(const fg__table *table, const fg__table_vector *vectors,
                                 int count)
 {
-  char all[1024] = "";
-  size_t used = 0;
-  for (int i = 0; i < count && used + 2 * FG__TABLE_NAME + 8 < sizeof all; ++i)
-    used += (size_t)snprintf(all + used, sizeof all - used, "%s%s,%s", i ? " | " : "",
-                             table->column[vectors[i].velocity[0]].name,
-                             table->column[vectors[i].velocity[1]].name);
+  fg__names all = {0};
+  for (int i = 0; i < count; ++i)
+    fg__names_add(&all, " | ", "%s,%s", table->column[vectors[i].velocity[0]].name,
+                  table->column[vectors[i].velocity[1]].name);
   fg__fail(table->context, FG_STATUS_ARGUMENT, "%s: %d vectors could be meant: %s",
-           table->path, count, all);
+           table->path, count, all.text);
   fg__hint(table->context, "choose one: --vars %s,%s",
            table->column[vectors[0].velocity[0]].name,
            table->column[vectors[0].velocity[1]].name);
@@ -320,13 +317,12 @@ fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
     status = choose_named(out, table, options);
   } else {
     int count;
-    char names[512];
-    list_names(names, sizeof names, table);
     status = fg__table_vectors(found, &count, table);
     if (status == FG_STATUS_OK && count == 0) {
       status = fg__fail(table->context, FG_STATUS_UNSUPPORTED,
                         "%s: %d columns%s %s: which are x, y, u and v?", table->path,
-                        table->columns, table->named ? "," : " without names,", names);
+                        table->columns, table->named ? "," : " without names,",
+                        list_names(table).text);
       fg__hint(table->context,
                "name them: --vars X,Y,U,V, or by numbers: --vars 1,2,3,4");
     } else if (count > 1) {
