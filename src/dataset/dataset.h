@@ -5,6 +5,7 @@
 #define FG__DATASET_H
 
 #include "base/context.h"
+#include "terms/coordinates.h"
 
 enum {
   FG__DATASET_FILES = 3, /* the input and two more with what it lacks */
@@ -51,17 +52,6 @@ typedef enum fg__type {
   FG__TYPE_FLOAT64
 } fg__type;
 
-/* Longitude (X), latitude (Y), ...: what a dimension or a coordinate is for. */
-typedef enum fg__role {
-  FG__NO_ROLE = -1,
-  FG__ROLE_X = 0,
-  FG__ROLE_Y,
-  FG__ROLE_TIME,
-  FG__ROLE_LEVEL
-} fg__role;
-
-enum { FG__ROLES = 4 };
-
 typedef struct fg__variable {
   fg__dataset *owner;
   int file;               /* below FG__DATASET_FILES */
@@ -81,7 +71,6 @@ typedef struct fg__variable {
   int place, id;   /* the decoder's own */
   /* by interpret/, once a dataset is open */
   fg__role geographic; /* longitude (X), latitude (Y), or neither */
-  bool upward;         /* a velocity, by its standard name */
 } fg__variable;
 
 /* What a format must do for the variables of a file; each returns OK, or a status with

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "dataset/dataset.h"
+#include "terms/units.h"
 
 static double round_to_type(double value, fg__type type)
 {
@@ -86,6 +87,16 @@ bool fg__is_given_missing(const fg__missing_numbers *given, double value)
   return false;
 }
 
+/* Degrees of which those in the west or south are positive are read as if packed. */
+static bool counts_west_or_south(const fg__variable *v)
+{
+  char text[FG__TEXT_BYTES];
+  fg__unit unit = {.factor = 1.0};
+  if (fg__attribute_text(v, "units", text, sizeof text))
+    fg__unit_read(&unit, text);
+  return unit.factor < 0.0;
+}
+
 fg__packing fg__packing_of(const fg__variable *variable)
 {
   fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
@@ -94,6 +105,13 @@ fg__packing fg__packing_of(const fg__variable *variable)
   find_fills(&p, variable);
   find_range(&p, variable, scaled + moved > 0);
   find_unsigned(&p, variable);
+  if (counts_west_or_south(variable)) {
+    const double least = p.least;
+    p.scale = -p.scale;
+    p.offset = -p.offset;
+    p.least = p.range_unpacked ? -p.largest : least;
+    p.largest = p.range_unpacked ? -least : p.largest;
+  }
   return p;
 }
 

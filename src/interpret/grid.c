@@ -1,8 +1,9 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
 #include "interpret/unstructured/unstructured.h"
+#include "terms/frame.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -325,7 +326,8 @@ static void check_directions(fg__grid *grid, const fg__dataset *data,
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
   char mapping[FG__TEXT_BYTES];
-  const bool east = pair->polar.sense != 0 || fg__says_east(u);
+  const fg__term term = fg__term_of(u);
+  const bool east = pair->polar.sense != 0 || fg__says_east(&term);
   if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
   if (grid->projection[0]) {

@@ -1,6 +1,7 @@
 /* Texts of captions: the vector's title, its time and its level. */
 #include "base/memory.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
+#include "terms/dates.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -220,12 +221,13 @@ static void write_words(const fg__variable *coordinate, double value, char *out,
 fg_status fg__index_words(const fg__variable *coordinate, const char *name, size_t index,
                           char *out, size_t size)
 {
-  if (coordinate && coordinate->type == FG__TYPE_LETTERS) {
+  const bool of_texts = coordinate && !fg__is_number(coordinate);
+  if (of_texts) {
     const fg_status status = fg__date_text(out, size, coordinate, index);
     if (status != FG_STATUS_OK || out[0])
       return status;
   }
-  if (!coordinate || coordinate->type == FG__TYPE_LETTERS) {
+  if (!coordinate || of_texts) {
     snprintf(out, size, "%.200s %zu", name, index);
     return FG_STATUS_OK;
   }
@@ -285,9 +287,9 @@ fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__datas
   *text = NULL;
   if (!coordinate || count < 1 || count > MOST_VALUES)
     return FG_STATUS_OK;
-  if (coordinate->type == FG__TYPE_LETTERS)
+  if (!fg__is_number(coordinate))
     return fg__date_values(out, text, coordinate, count);
-  if (coordinate->rank > 1 || !fg__is_number(coordinate))
+  if (coordinate->rank > 1)
     return FG_STATUS_OK;
   fg_status status = FG_STATUS_OK;
   double *number = fg__allocate(count, sizeof *number);

@@ -18,8 +18,10 @@ static fg_status open_file(fg__dataset *data, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source)
 {
   const fg_status status = format->open(data, context, source);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i)
-    fg__classify(&data->variables[i]);
+  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i) {
+    const fg__term term = fg__term_of(&data->variables[i]);
+    data->variables[i].geographic = fg__geographic_role(&term);
+  }
   return status;
 }
 

@@ -200,7 +200,9 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
   if (status == FG_STATUS_OK)
     status = settle_missing(out, &from);
   if (status == FG_STATUS_OK)
-    fg__polar_turn_all(out->velocity, row_size(grid) * (size_t)rows->held, &pair->polar);
+    status = fg__polar_turn_all(data->context, out->velocity,
+                                row_size(grid) * (size_t)rows->held, &pair->polar,
+                                data->file[0].path, pair->component[1]->plain_name);
   if (status == FG_STATUS_OK && grid->faces.used)
     close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
   return status;

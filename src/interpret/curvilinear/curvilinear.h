@@ -65,9 +65,6 @@ bool fg__frame_find(fg__curvilinear *mesh, const fg__dataset *data, const fg__pa
 bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,
                        const fg__pair *pair, fg_frame wanted);
 
-/* Whether a component's names say that it is along east or north. */
-bool fg__says_east(const fg__variable *u);
-
 /* positions.c. Longitudes and latitudes of a part's samples, in degrees. To be freed,
  * also after a failure. */
 typedef struct fg__positions {

@@ -2,8 +2,8 @@
  * differ in their time alone, so ecCodes decodes once what the others share. */
 #include "base/memory.h"
 #include "base/mix.h"
-#include "interpret/time_words.h"
 #include "read/grib/grib.h"
+#include "terms/dates.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* GRIB, editions 1 and 2, through ecCodes. */
 #include "read/grib/grib.h"
+#include "terms/units.h"
 
 #include "base/memory.h"
 #include "field/slab.h"
@@ -118,10 +119,11 @@ static fg_status read_values(float *velocity[2], const fg__grib_file *file,
     status = use_mask(velocity[0], velocity[1], file, field, grid);
   if (status == FG_STATUS_OK)
     status = fg__grib_values(velocity[1], file, place->component[1], grid);
-  if (status == FG_STATUS_OK) {
-    fg__polar_turn_all(velocity, grid->points, &pair->polar);
+  if (status == FG_STATUS_OK)
+    status = fg__polar_turn_all(file->context, velocity, grid->points, &pair->polar,
+                                file->path[0], pair->name[1]);
+  if (status == FG_STATUS_OK)
     fg__grib_turn(velocity[0], velocity[1], grid);
-  }
   return status;
 }
 
@@ -162,7 +164,7 @@ static void write_captions(captions *out, fg_field_arrays *arrays,
                            const fg__grib_pair *pair, const fg_read_options *options)
 {
   fg__grib_title(pair, out->title, sizeof out->title);
-  fg__grib_units(pair->kind[0]->units, out->units, sizeof out->units);
+  fg__units_read(pair->kind[0]->units, out->units, sizeof out->units);
   fg__grib_time_words(pair, (size_t)options->time, out->time, sizeof out->time);
   fg__grib_level_words(pair, pair->level[options->level], out->level, sizeof out->level);
   arrays->title = out->title;
@@ -399,7 +401,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
   axis_values values[2] = {{NULL, NULL}, {NULL, NULL}};
   char units[FG__GRIB_TEXT], polar[FG__GRIB_TEXT], frame[FG__GRIB_TEXT + 32];
   fg_status status = find_grid(&grid, file, pair, &pair->place[0]);
-  fg__grib_units(pair->kind[0]->units, units, sizeof units);
+  fg__units_read(pair->kind[0]->units, units, sizeof units);
   fg_inventory_vector vector = {.components = 2,
                                 .name = {pair->name[0], pair->name[1]},
                                 .units = units,
@@ -409,7 +411,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
                                 .times = (int)pair->times,
                                 .levels = (int)pair->levels,
                                 .scale = scale_of(&grid)};
-  fg__polar_words(polar, sizeof polar, &pair->polar, "parameters of a wind");
+  fg__polar_words(polar, sizeof polar, &pair->polar, pair->kind[1]->title);
   snprintf(frame, sizeof frame, "east and north (%s)", polar);
   vector.frame = pair->polar.sense != 0 ? frame : NULL;
   if (status == FG_STATUS_OK)

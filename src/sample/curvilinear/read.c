@@ -340,7 +340,8 @@ static fg_status fill(centre_values *all, fg__curvilinear *mesh, const fg__datas
   if (status == FG_STATUS_OK)
     status = fg__missing_settle(data->context, &raw, &data->missing);
   if (status == FG_STATUS_OK)
-    fg__polar_turn_all(all->component, all->count, &mesh->polar);
+    status = fg__polar_turn_all(data->context, all->component, all->count, &mesh->polar,
+                                data->file[0].path, mesh->part[1].variable->plain_name);
   if (status == FG_STATUS_OK)
     status = fg__refuse_missing_codes(data->context, data->file[0].path, all->component,
                                       all->count);

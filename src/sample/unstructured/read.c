@@ -112,7 +112,9 @@ static fg_status read_vectors(float *velocity[2], const request *r)
   if (status == FG_STATUS_OK)
     status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
   if (status == FG_STATUS_OK)
-    fg__polar_turn_all(velocity, grid->samples, &r->pair->polar);
+    status =
+        fg__polar_turn_all(r->data->context, velocity, grid->samples, &r->pair->polar,
+                           r->data->file[0].path, r->pair->component[1]->plain_name);
   if (status != FG_STATUS_OK || r->counts_only)
     return status;
   return fg__refuse_missing_codes(r->data->context, r->data->file[0].path, velocity,
