@@ -404,7 +404,10 @@ static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
   const size_t used = strlen(mesh->rule);
   vector->cells = between->cells;
   vector->points = between->points;
-  if (between->gaps > 0)
+  if (between->gaps > 0 && between->cells == 0)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used,
+             ", a grid with gaps in %zu intervals", between->gaps);
+  else if (between->gaps > 0)
     snprintf(mesh->rule + used, sizeof mesh->rule - used,
              ", triangulated; %zu triangles across gaps left out", between->gaps);
   else if (between->cells > 0)
