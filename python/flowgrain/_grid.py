@@ -350,7 +350,7 @@ def on_sphere(longitude: np.ndarray, latitude: np.ndarray) -> np.ndarray:
 
 def over_no_gap(places: Sequence[np.ndarray]) -> np.ndarray:
     """Which cells, (ny - 1, nx - 1), of a curvilinear grid lie where it was sampled, by coordinates
-    in a plane or in space.
+    in a plane or in space, and by the program's rule (src/sample/gaps.h).
 
     An edge between neighbours along a line of the grid goes over a gap where it is more than WIDE
     times as long as the median of the edges of that line that are at most BESIDE away, itself among

@@ -125,7 +125,7 @@ struct fg__dataset {
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied; pointers are borrowed until the next of
+ * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are borrowed until the next of
  * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
  * too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,

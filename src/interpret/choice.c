@@ -1,6 +1,7 @@
 /* Selects the pair to read: the one that the options name, or the only one of best
  * rank. */
 #include "base/memory.h"
+#include "base/names.h"
 #include "interpret/interpret.h"
 #include "terms/text.h"
 
@@ -23,29 +24,18 @@ static int write_names(char *out, size_t size, const fg__pair *pair, bool volume
                   volume ? pair->component[2]->name : "");
 }
 
-/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not
- * 0. */
-static void list_pairs(const candidates *all, const int *dimension, char *out,
-                       size_t size)
+/* Lists pairs as "u,v; u10,v10": all, or those whose dimension is not 0. */
+static fg__names list_pairs(const candidates *all, const int *dimension)
 {
-  size_t n = 0;
-  out[0] = '\0';
+  char pair[3 * FG__NAME_BYTES];
+  fg__names names = {0};
   for (size_t i = 0; i < all->count; ++i) {
     if (dimension && dimension[i] == 0)
       continue;
-    const char *between = n > 0 ? "; " : "";
-    if (n + strlen(between) >= size)
-      return;
-    strcpy(out + n, between);
-    const size_t start = n + strlen(between);
-    const int written = write_names(out + start, size - start, &all->pair[i],
-                                    dimension && dimension[i] == 3);
-    if (written < 0 || (size_t)written >= size - start) {
-      out[n] = '\0';
-      return;
-    }
-    n = start + (size_t)written;
+    write_names(pair, sizeof pair, &all->pair[i], dimension && dimension[i] == 3);
+    fg__names_add(&names, "; ", "%s", pair);
   }
+  return names;
 }
 
 /* Whether a text is a column's name, in any letters, perhaps with its units behind it, as
@@ -106,30 +96,27 @@ static const fg__variable *find_direction(const fg__dataset *data)
 static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
                                    const char *name)
 {
-  char list[1024];
+  const fg__names list = list_pairs(all, NULL);
   fg_status status =
       fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
                data->file[data->component_files - 1].path, name);
-  list_pairs(all, NULL, list, sizeof list);
-  if (list[0])
-    fg__hint(data->context, "pairs in it: %s", list);
+  if (list.count > 0)
+    fg__hint(data->context, "pairs in it: %s", list.text);
   return status;
 }
 
 static fg_status fail_names(const fg__dataset *data, const candidates *all,
                             const char *vars)
 {
-  char list[1024];
-  fg__fail(
-      data->context, FG_STATUS_ARGUMENT,
-      strchr(vars, ',')
-          ? "%s: '%s' is not two or three names with commas between, nor four or six "
-            "with the coordinates first"
-          : "%s: '%s' is one variable, and a velocity has two or three components",
-      data->file[0].path, vars);
-  list_pairs(all, NULL, list, sizeof list);
-  if (list[0])
-    fg__hint(data->context, "pairs in it: %s", list);
+  const fg__names list = list_pairs(all, NULL);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           strchr(vars, ',')
+               ? "%s: '%s' is not two or three names with commas between, nor four or six "
+                 "with the coordinates first"
+               : "%s: '%s' is one variable, and a velocity has two or three components",
+           data->file[0].path, vars);
+  if (list.count > 0)
+    fg__hint(data->context, "pairs in it: %s", list.text);
   else
     fg__hint(data->context, "name two variables: --vars U,V; or three: --vars U,V,W");
   return FG_STATUS_ARGUMENT;
@@ -264,21 +251,18 @@ static fg_status check_places(const fg__dataset *data, const fg__pair *pair,
                   pair->component[0]->name);
 }
 
-/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
- * none. */
-static void list_variables(char *out, size_t size, const fg__dataset *data)
+/* Lists variables as "u, lat, lon", possible components first. */
+static fg__names list_variables(const fg__dataset *data)
 {
-  size_t used = 0;
-  out[0] = '\0';
+  fg__names names = {0};
   for (int turn = 0; turn < 2; ++turn)
     for (size_t i = 0; i < data->variable_count; ++i) {
       const fg__variable *v = &data->variables[i];
       const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
-      if (is_field == (turn == 1) || v->element > 1 || used + strlen(v->name) + 8 > size)
-        continue;
-      used +=
-          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
+      if (is_field == (turn == 0) && v->element < 2)
+        fg__names_add(&names, ", ", "%s", v->name);
     }
+  return names;
 }
 
 static bool all_are_columns(const fg__dataset *data)
@@ -292,12 +276,12 @@ static bool all_are_columns(const fg__dataset *data)
 
 static fg_status fail_no_vectors(const fg__dataset *data)
 {
-  char names[1024];
-  list_variables(names, sizeof names, data);
+  const fg__names names = list_variables(data);
   fg_status status =
       fg__fail(data->context, FG_STATUS_UNSUPPORTED,
-               "%s: no vectors found among its %zu variable%s%s", data->file[0].path,
-               data->variable_count, data->variable_count == 1 ? "" : "s", names);
+               "%s: no vectors found among its %zu variable%s%s%s", data->file[0].path,
+               data->variable_count, data->variable_count == 1 ? "" : "s",
+               names.count > 0 ? ": " : "", names.text);
   const fg__variable *direction = find_direction(data);
   if (direction)
     fg__hint(data->context, "name the speed with its direction: --vars SPEED,%s",
@@ -316,12 +300,11 @@ static fg_status fail_no_vectors(const fg__dataset *data)
 static fg_status fail_ambiguous(const fg__dataset *data, const candidates *all,
                                 const int *usable, int count)
 {
-  char list[1024];
-  list_pairs(all, usable, list, sizeof list);
+  const fg__names list = list_pairs(all, usable);
   fg_status status =
       fg__fail(data->context, FG_STATUS_ARGUMENT,
                "%s: holds %d vectors, and it is not clear which is meant: %s",
-               data->file[0].path, count, list);
+               data->file[0].path, count, list.text);
   fg__hint(data->context, "choose one with --vars U,V");
   return status;
 }

@@ -42,8 +42,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
     status = open_file(data, context, format, &source);
-  fg__source_close(&source);
-  return status;
+  return fg__source_close(&source, context, status);
 }
 
 /* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
@@ -231,6 +230,9 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 /* Closes what choose() or open_chosen() has opened. */
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
+  for (int n = 1; n < data->files; ++n)
+    status =
+        fg__source_check(data->context, status, data->file[n].path, data->file[n].size);
   fg__grid_clear(grid);
   fg__dataset_close(data);
   return status;

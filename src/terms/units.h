@@ -1,7 +1,7 @@
 /* Units in files ("m s**-1", "centimeter/s", "degrees_north") and on axis labels ("m/s",
  * "cm/s", "°N"). */
-#ifndef FG__UNITS_H
-#define FG__UNITS_H
+#ifndef FG__TERMS_UNITS_H
+#define FG__TERMS_UNITS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* The vectors that variables, columns or arrays form: by standard names, by names, and as
  * a speed with its direction. */
-#ifndef FG__VECTORS_H
-#define FG__VECTORS_H
+#ifndef FG__TERMS_VECTORS_H
+#define FG__TERMS_VECTORS_H
 
 #include "terms/polar.h"
 

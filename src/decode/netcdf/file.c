@@ -318,7 +318,7 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
   const fg_status status = fg__nc_check_chunks(v, start, count);
   if (status != FG_STATUS_OK)
     return status;
-  const int error = nc_get_vara_double(v->place, v->id, start, count, out);
+  const int error = fg__nc_get_numbers(v, start, count, out);
   return error ? fail(v->owner->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 

@@ -6,40 +6,27 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "decode/table/table.h"
 #include "file/number_text.h"
-#include "file/utf8.h"
 #include "terms/coordinates.h"
+#include "terms/text.h"
 #include "terms/units.h"
 #include "terms/vectors.h"
 
 enum { LOOKED_AT = 8 };
 
-/* Copies text of any bytes as UTF-8: what is none is Latin-1, as programs on Windows
- * write ° and µ. Control characters become blanks; blanks at the ends are left out. */
+/* Copies a name or unit; control characters become blanks, and blanks at the ends are
+ * left out. */
 static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
 {
-  char raw[FG__TABLE_NAME];
   size_t n = 0;
   for (; size > 0 && *text == ' '; --size)
     ++text;
-  if (size >= sizeof raw)
-    size = sizeof raw - 1;
-  memcpy(raw, text, size);
-  raw[size] = '\0';
-  const bool utf8 = fg__utf8_is_valid(raw);
-  for (size_t i = 0; i < size && n + 2 < FG__TABLE_NAME; ++i) {
-    const unsigned char c = (unsigned char)raw[i];
-    if (utf8 || c < 0x80) {
-      out[n++] = c < ' ' || c == 0x7f ? ' ' : (char)c;
-    } else {
-      out[n++] = (char)(0xc0 | c >> 6);
-      out[n++] = (char)(0x80 | (c & 0x3f));
-    }
-  }
-  out[n] = '\0';
-  while (!fg__utf8_is_valid(out)) /* a sign was cut in two */
-    out[--n] = '\0';
+  fg__utf8_take(out, FG__TABLE_NAME, text, size);
+  for (; out[n]; ++n)
+    if ((unsigned char)out[n] < ' ' || out[n] == 0x7f)
+      out[n] = ' ';
   while (n > 0 && out[n - 1] == ' ')
     out[--n] = '\0';
 }
