@@ -183,10 +183,9 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
     return check_index(data, "level", level, grid->level, grid->levels, grid->level_name);
   if (level == 0)
     return FG_STATUS_OK;
-  fg__fail(
-      data->context, FG_STATUS_ARGUMENT,
-      "%s: level %d asked for, but the field has three components and all %zu levels",
-      data->file[0].path, level, grid->levels);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           "%s: level %d asked for, but it has three components and all %zu levels",
+           data->file[0].path, level, grid->levels);
   fg__hint(data->context, "name two components, --vars U,V, for the plane of one level");
   return FG_STATUS_ARGUMENT;
 }
@@ -307,9 +306,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 {
   fg_axis_value *times = NULL, *levels = NULL;
   char *time_text = NULL, *level_text = NULL;
-  fg_status status = FG_STATUS_OK;
-  if (!vector->unusable)
-    status = fg__index_values(&times, &time_text, data, grid, true);
+  fg_status status = vector->unusable
+                         ? FG_STATUS_OK
+                         : fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__index_values(&levels, &level_text, data, grid, false);
   vector->time_value = times;
@@ -394,11 +393,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
                                const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
-  vector_texts texts;
+  vector_texts texts = {.chosen = ""};
   fg_read_defaults defaults;
   fg_status status = fg__defaults_find(&defaults, data, pair, grid, options);
   fg__velocity_units(texts.units, sizeof texts.units, pair);
-  texts.chosen[0] = '\0';
   for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
     status = fg__chosen_words(data, pair->component[0], of_time == 1, texts.chosen,
                               sizeof texts.chosen);

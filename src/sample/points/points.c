@@ -353,6 +353,8 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
     status = points->dimension == 3 ? fg__scatter_fit(&grid, points)
                                     : interpolate(&grid, between, points);
   between->points = grid.points;
+  if (found)
+    between->gaps = grid.gaps;
   if (status == FG_STATUS_OK)
     status = fg__point_grid_straighten(&grid, points->context, points->path,
                                        points->geographic);
