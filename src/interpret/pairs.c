@@ -1,6 +1,7 @@
 /* The pairs of variables that are components of one vector: terms/vectors.h of those that
  * may be, and vector variables. */
 #include "base/memory.h"
+#include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/coordinates.h"
 #include "terms/vectors.h"
@@ -31,6 +32,7 @@ fg__term fg__term_of(const fg__variable *v)
                     .standard_name = text_of(v, "standard_name"),
                     .long_name = text_of(v, "long_name"),
                     .units = text_of(v, "units"),
+                    .group = (int)v->location,
                     .file = v->file};
 }
 
@@ -49,6 +51,8 @@ typedef struct candidates {
 
 static bool may_be_component(const fg__dataset *data, const fg__variable *v)
 {
+  if (data->space.is_there)
+    return fg__may_be_in_space(v);
   return v->file < data->component_files && fg__is_array(v) && !v->element &&
          (v->rank >= 2 || fg__unstructured_line(data, v));
 }
@@ -138,8 +142,12 @@ static bool add_found(pair_list *pairs, const fg__dataset *data, const candidate
     for (int k = 0; k < 3; ++k)
       if (v->component[k] >= 0)
         pair.component[components++] = all->variable[v->component[k]];
-    memory = (v->is_upright && !is_plane_across(data, v->component[0] < 0 ? 0 : 1)) ||
-             append(pairs, &pair);
+      else if (v->is_upright)
+        pair.across = 1 + k;
+    const bool lies_elsewhere =
+        data->space.is_there ? v->polar.sense != 0
+                             : v->is_upright && !is_plane_across(data, pair.across - 1);
+    memory = lies_elsewhere || append(pairs, &pair);
   }
   free(found);
   return memory;
@@ -160,7 +168,10 @@ static bool add_vectors(pair_list *pairs, const fg__dataset *data, bool all)
   for (size_t i = 0; i + 1 < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     const char *units = text_of(v, "units");
-    if (v->element != 1 || v->file >= data->component_files ||
+    fg__pair of_space;
+    if (v->location && fg__pair_of_vector(&of_space, v) && !append(pairs, &of_space))
+      return false;
+    if (v->location || v->element != 1 || v->file >= data->component_files ||
         (!all && is_also_whole(data, i)))
       continue;
     fg__unit unit = {.quantity = FG__QUANTITY_SPEED};
@@ -202,6 +213,8 @@ fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data)
     free(pairs.entry);
     return fg__fail_memory(data->context, "pairs of variables", 0);
   }
+  if (data->space.is_there)
+    fg__drop_repeated(pairs.entry, &pairs.count);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;
