@@ -47,6 +47,25 @@ static void list_pairs(const candidates *all, const int *dimension, char *out,
   }
 }
 
+/* The only variable that GRIB calls so, as "10u" is called u10 too; NULL: none. */
+static const fg__variable *find_alias(const fg__dataset *data, const char *name,
+                                      int file)
+{
+  static const char *const words[] = {"GRIB_shortName", "GRIB_cfVarName"};
+  const fg__variable *found = NULL;
+  char text[FG__TEXT_BYTES];
+  for (size_t i = 0; i < data->variable_count; ++i)
+    for (int k = 0; k < 2; ++k) {
+      const fg__variable *v = &data->variables[i];
+      if (v->file != file || !fg__attribute_text(v, words[k], text, sizeof text) || strcmp(text, name) != 0)
+        continue;
+      if (found && found != v)
+        return NULL;
+      found = v;
+    }
+  return found;
+}
+
 /* A name may begin with the slash of the root group. */
 static const fg__variable *find_named(const fg__dataset *data, const char *name,
                                       int preferred)
@@ -58,7 +77,8 @@ static const fg__variable *find_named(const fg__dataset *data, const char *name,
         (strcmp(v->name, name) == 0 || strcmp(v->plain_name, name) == 0))
       return v;
   }
-  return fg__dataset_find(data, name);
+  const fg__variable *other = fg__dataset_find(data, name);
+  return other ? other : find_alias(data, name, preferred);
 }
 
 /* The first direction among the variables of two dimensions or more; NULL: none. */

@@ -167,6 +167,11 @@ typedef struct fg__grid {
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
                       const fg__variable *v);
 
+/* Whether a file has both components at a time and level; and the first at which it has.
+ */
+bool fg__has_samples(const fg__pair *pair, const fg__grid *grid, int time, int level);
+fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid);
+
 /* Makes a pair unusable whose components lie more than half a cell apart. */
 void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 

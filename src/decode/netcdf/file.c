@@ -375,7 +375,8 @@ static void close_state(void *state)
   free(nc);
 }
 
-static const fg__decoder DECODER = {fetch, fetch_texts, close_state};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .fetch_texts = fetch_texts, .close = close_state};
 
 static fg_status list_file(fg__dataset *dataset, fg_context *context,
                            const fg__source *source, fg__nc_state *state)

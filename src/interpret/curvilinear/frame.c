@@ -12,10 +12,14 @@ static bool starts_with(const char *text, const char *start)
   return strncmp(text, start, strlen(start)) == 0;
 }
 
-/* The first rule: standard names. Returns 1 for east, -1 for the grid, 0 for neither. */
+/* The first rule: standard names, which cfgrib writes whatever the flag of a message is.
+ * Returns 1 for east, -1 for the grid, 0 for neither. */
 static int by_standard_name(const fg__variable *u, char *name, size_t size)
 {
+  double relative;
   fg__attribute_text(u, "standard_name", name, size);
+  if (fg__attribute_numbers(u, "GRIB_uvRelativeToGrid", &relative, 1) == 1)
+    return relative > 0.0 ? -1 : 1;
   if (starts_with(name, "grid_"))
     return -1; /* grid_eastward_wind */
   if (strstr(name, "eastward") || strstr(name, "northward"))

@@ -1,4 +1,4 @@
-#include "read/grib/sample.h"
+#include "read/grib/grib_example.h"
 
 static const char U[] = "indicatorOfParameter=33,table2Version=2",
                   V[] = "indicatorOfParameter=34,table2Version=2",
@@ -184,42 +184,41 @@ static void projected_grids(void **state)
   } cases[] = {
       {north_cone,
        "bitsPerValue=20",
-       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +R=6371229 +units=m +no_defs",
+       "+proj=lcc +lat_0=45 +lon_0=10 +lat_1=40 +lat_2=50 +R=6371229 +units=m",
        {-1961707.198, -1436429.762},
        false},
       {north_cone,
        "bitsPerValue=20,shapeOfTheEarth=5",
-       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +a=6378137 +b=6356752.314 "
-       "+units=m +no_defs",
+       "+proj=lcc +lat_0=45 +lon_0=10 +lat_1=40 +lat_2=50 +a=6378137 +b=6356752.314 "
+       "+units=m",
        {-1965226.721, -1432748.077},
        true},
       {"gridType=lambert,latitudeOfFirstGridPointInDegrees=-50,"
        "longitudeOfFirstGridPointInDegrees=130,LoVInDegrees=140,LaDInDegrees=-40,"
        "Latin1InDegrees=-40,Latin2InDegrees=-40,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=lcc +lat_1=-40 +lat_2=-40 +lat_0=-40 +lon_0=140 +R=6371229 +units=m "
-       "+no_defs",
+       "+proj=lcc +lat_0=-40 +lon_0=140 +lat_1=-40 +lat_2=-40 +R=6371229 +units=m",
        {-724894.688, -1158614.926},
        true},
       {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=60,"
        "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=340,"
        "LaDInDegrees=60,southPoleOnProjectionPlane=0,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=stere +lat_0=90 +lat_ts=60 +lon_0=340 +R=6371229 +units=m +no_defs",
+       "+proj=stere +lat_0=90 +lon_0=340 +lat_ts=60 +R=6371229 +units=m",
        {-2047673.53, -2440322.286},
        false},
       {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=-60,"
        "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=0,"
        "LaDInDegrees=-60,southPoleOnProjectionPlane=1,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=stere +lat_0=-90 +lat_ts=-60 +lon_0=0 +R=6371229 +units=m +no_defs",
+       "+proj=stere +lat_0=-90 +lon_0=0 +lat_ts=-60 +R=6371229 +units=m",
        {-2758823.084, 1592807.25},
        false},
       {"gridType=mercator,latitudeOfFirstGridPointInDegrees=-10,"
        "longitudeOfFirstGridPointInDegrees=350,LaDInDegrees=20,"
        "orientationOfTheGridInDegrees=0,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=merc +lat_ts=20 +lon_0=-0.4",
+       "+proj=merc +lon_0=-0.4",
        {-1000000.0, -1050273.894},
        false},
   };
@@ -288,9 +287,10 @@ static void times_and_levels(void **state)
   grib_refuse(f, NULL, FG_STATUS_ARGUMENT, "u,v; 10u,10v");
   grib_refuse(f, &(fg_read_options){.vars = "u,v"}, FG_STATUS_ARGUMENT,
               "at time 0 (2014-01-31 06:00) and level 0 (300 hPa)");
-  grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT, "'u,w'");
+  grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT,
+              "has no variable 'w'");
   grib_refuse(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT,
-              "'u' is one field, and a velocity has two components");
+              "'u' is one variable, and a velocity has two or three components");
   fg_field *field = grib_read(f, &(fg_read_options){.vars = "u,v", .time = 1});
   assert_string_equal(fg_field_contents(field)->level, "300 hPa");
   assert_string_equal(fg_field_contents(field)->time, "2014-02-01 06:00");
@@ -309,7 +309,7 @@ static void fields_without_a_pair_are_named(void **state)
     grib_add(f, "regular_ll_pl_grib2", k ? "dataTime=600" : "", 0, "bitsPerValue=16",
              WIND_U, w, NULL);
   grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED,
-              "no vectors found among its 2 kinds of fields: u, w");
+              "no vectors found among its 7 variables: u, w, longitude");
 }
 
 /* Both components in one message; and without its last bytes, or those between. */

@@ -1,6 +1,6 @@
 /* Speed and direction of a wind in place of components: the flow is that of the same
  * places' components. */
-#include "read/grib/sample.h"
+#include "read/grib/grib_example.h"
 
 static const char SPEED[] = "parameterCategory=2,parameterNumber=1",
                   DIRECTION[] = "parameterCategory=2,parameterNumber=0";

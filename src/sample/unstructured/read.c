@@ -89,6 +89,25 @@ static fg_status apply_mask(float *velocity, const request *r)
   return status;
 }
 
+/* Turns vectors along a mesh's rows to east and north. */
+static fg_status turn_vectors(float *const velocity[2], const request *r)
+{
+  const fg__unstructured *mesh = r->grid->unstructured;
+  double *turn[2] = {NULL, NULL};
+  if (!mesh->turn[0] || r->pair->polar.sense != 0)
+    return FG_STATUS_OK;
+  const fg_status status =
+      fg__positions_of(turn, r->data, mesh, mesh->turn, r->grid->samples);
+  for (size_t n = 0; n < r->grid->samples && status == FG_STATUS_OK; ++n) {
+    const double u = (double)velocity[0][n], v = (double)velocity[1][n];
+    velocity[0][n] = (float)(u * turn[0][n] - v * turn[1][n]);
+    velocity[1][n] = (float)(u * turn[1][n] + v * turn[0][n]);
+  }
+  free(turn[0]);
+  free(turn[1]);
+  return status;
+}
+
 static fg_status read_vectors(float *velocity[2], const request *r)
 {
   const fg__grid *grid = r->grid;
@@ -101,6 +120,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
                          &grid->unstructured->of_v, false);
   if (status == FG_STATUS_OK)
     fg__polar_turn_all(velocity, grid->samples, &r->pair->polar);
+  if (status == FG_STATUS_OK)
+    status = turn_vectors(velocity, r);
   if (status == FG_STATUS_OK)
     status = apply_mask(velocity[0], r);
   if (status != FG_STATUS_OK || r->counts_only)
@@ -174,6 +195,7 @@ static fg_status make_cells(fg__sphere_cells *out, size_t *missing, const reques
   if (status == FG_STATUS_OK) {
     if (mesh->in_plane && !nodes)
       drop_wide_faces(velocity[0], &faces);
+    fg__fill_poles(&faces, mesh->poles, velocity);
     *missing = missing_of(velocity, r->grid->samples);
     status = nodes ? fg__cells_of_nodes(out, r->data->context, &faces, velocity)
                    : fg__cells_of_faces(out, r->data->context, &faces, velocity,
@@ -430,7 +452,7 @@ static void describe_field(fg_inventory_vector *vector, const fg_field *field)
 fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__dataset *data,
                                     const fg__pair *pair, const fg__grid *grid)
 {
-  static const fg_read_options first = {0};
+  const fg_read_options first = fg__first_samples(pair, grid);
   request r = {
       .data = data, .pair = pair, .grid = grid, .options = &first, .counts_only = true};
   fg__sphere *sphere = NULL;

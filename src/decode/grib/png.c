@@ -2,7 +2,7 @@
  * what could be wrong is looked for before. */
 #include "base/memory.h"
 #include "file/checksum.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <stdlib.h>
 #include <string.h>
