@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "command/command.h"
 #include "inputs.h"
@@ -81,6 +82,11 @@ static void print_vector(const fg_inventory_vector *vector)
     printf("  components: %s\n", clean_text(text, vector->frame));
   if (fg_map_auto(vector))
     printf("  map: %s\n", fg_map_auto(vector));
+  for (const char *line = vector->doubts; line && *line;) {
+    const int length = (int)strcspn(line, "\n");
+    printf("  doubt: %.*s\n", length, line);
+    line += length + (line[length] == '\n');
+  }
 }
 
 static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
@@ -144,6 +150,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddItemToArray(names_of_axes, cJSON_CreateString(axis_of(vector, k)));
   if (vector->frame)
     cJSON_AddStringToObject(object, "frame", vector->frame);
+  if (vector->doubts)
+    cJSON_AddStringToObject(object, "doubts", vector->doubts);
   if (fg_map_auto(vector))
     cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
@@ -154,6 +162,7 @@ typedef struct listing {
   fg_inventory *inventory;
   bool is_chosen;
   fg_inventory_vector chosen;
+  fg_field *field; /* the chosen vector as read, whose texts `chosen` has */
   int looks; /* times that were read for one with values */
 } listing;
 
@@ -215,12 +224,14 @@ static void take_grid(fg_inventory_vector *vector, const fg_field *field)
   vector->missing_share = (double)missing / (double)samples;
   vector->scale = a->scale;
   vector->normal_share = fg_field_normal_share(field);
+  vector->doubts = a->doubts;
 }
 
 static bool chooses(const reading_settings *reading)
 {
   return reading->vars || reading->vars_from || reading->mesh_from || reading->at ||
-         reading->block || reading->slice || reading->frame || reading->scale;
+         reading->block || reading->slice || reading->frame || reading->scale ||
+         reading->missing;
 }
 
 /* So many times are looked at for one that has values. */
@@ -255,17 +266,15 @@ static fg_status read_any(fg_field **out, int *looks, fg_context *context,
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {
-  fg_field *field = NULL;
   fg_status status =
       fg_inventory_read_chosen(&list->inventory, context, list->file, options);
   list->is_chosen = !status && fg_inventory_vector_count(list->inventory) > 0;
   if (!list->is_chosen)
     return status;
   list->chosen = *fg_inventory_vector_at(list->inventory, 0);
-  status = read_any(&field, &list->looks, context, list, options);
+  status = read_any(&list->field, &list->looks, context, list, options);
   if (!status)
-    take_grid(&list->chosen, field);
-  fg_field_destroy(field);
+    take_grid(&list->chosen, list->field);
   return status;
 }
 
@@ -316,6 +325,7 @@ int command_info(const void *given)
     print_text(&list);
   if (!status && count_of(&list) == 0)
     code = complain_of_none(context, &list, &options);
+  fg_field_destroy(list.field);
   fg_inventory_destroy(list.inventory);
   fg_context_destroy(context);
   return code;

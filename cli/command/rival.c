@@ -285,7 +285,7 @@ static int prepare(rival_work *work)
                               .position_weight = fmax(settings->position_weight, 0.0),
                               .elongation = settings->elongation};
   if (!status) {
-    report_infinite(settings->reading.input, work->field);
+    report_doubts(settings->reading.input, work->field);
     int dimension = fg_field_contents(work->field)->dimension;
     int code = refuse_other_dimension("rival", &settings->picture, dimension,
                                       settings->reading.input);

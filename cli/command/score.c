@@ -52,7 +52,7 @@ static int prepare(score_work *work)
       fg_field_read(&work->field, work->context, settings->reading.input, &reading);
   if (status)
     return complain_of(work->context, status, settings->reading.input);
-  report_infinite(settings->reading.input, work->field);
+  report_doubts(settings->reading.input, work->field);
   work->scores = calloc((size_t)settings->files.count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;

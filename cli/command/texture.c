@@ -116,7 +116,7 @@ int command_texture(const void *given)
   fg_field *field = NULL;
   fg_status status = fg_field_read(&field, context, settings->reading.input, &reading);
   if (!status)
-    report_infinite(settings->reading.input, field);
+    report_doubts(settings->reading.input, field);
   code = status ? complain_of(context, status, settings->reading.input)
                 : paint(context, settings, field);
   interrupt_end();

@@ -86,7 +86,7 @@ int input_join(cli_run *run)
     return complain_of_reading(run, status);
   if (ranks_leader()) {
     print_choices(run);
-    report_infinite(run->settings->reading.input, run->field);
+    report_doubts(run->settings->reading.input, run->field);
   }
   return EXIT_DONE;
 }

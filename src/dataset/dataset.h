@@ -5,6 +5,7 @@
 #define FG__DATASET_H
 
 #include "base/context.h"
+#include "terms/coordinates.h"
 
 enum {
   FG__DATASET_FILES = 3, /* the input and two more with what it lacks */
@@ -51,17 +52,6 @@ typedef enum fg__type {
   FG__TYPE_FLOAT64
 } fg__type;
 
-/* Longitude (X), latitude (Y), ...: what a dimension or a coordinate is for. */
-typedef enum fg__role {
-  FG__NO_ROLE = -1,
-  FG__ROLE_X = 0,
-  FG__ROLE_Y,
-  FG__ROLE_TIME,
-  FG__ROLE_LEVEL
-} fg__role;
-
-enum { FG__ROLES = 4 };
-
 typedef struct fg__variable {
   fg__dataset *owner;
   int file;               /* below FG__DATASET_FILES */
@@ -83,7 +73,6 @@ typedef struct fg__variable {
   int place, id;   /* the decoder's own */
   /* by interpret/, once a dataset is open */
   fg__role geographic; /* longitude (X), latitude (Y), or neither */
-  bool upward;         /* a velocity, by its standard name */
 } fg__variable;
 
 /* What a format must do for the variables of a file; each returns OK, or a status with
@@ -109,6 +98,15 @@ typedef struct fg__dataset_file {
   bool was_read; /* numbers of it, since samples were chosen */
 } fg__dataset_file;
 
+/* Numbers that a user takes for missing values: fg_read_options.missing. */
+typedef struct fg__missing_numbers {
+  double number[FG__MOST_FILLS];
+  int count;
+  bool none; /* every number is a value */
+} fg__missing_numbers;
+
+bool fg__is_given_missing(const fg__missing_numbers *given, double value);
+
 /* The input and up to two files with what it lacks: the other component, the mesh. */
 struct fg__dataset {
   fg_context *context;
@@ -121,6 +119,7 @@ struct fg__dataset {
   size_t variable_count, variable_capacity;
   fg__variable *groups; /* only their attributes; of each file its own first */
   size_t group_count, group_capacity;
+  fg__missing_numbers missing;
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
@@ -191,6 +190,7 @@ typedef struct fg__packing {
   double least, largest; /* valid range */
   bool range_unpacked;   /* the range is of unpacked values, not of stored ones */
   double wrap;           /* added to negative values of _Unsigned data, or 0 */
+  const fg__missing_numbers *given;
 } fg__packing;
 
 typedef struct fg__missing_counts {

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "dataset/dataset.h"
+#include "terms/units.h"
 
 static double round_to_type(double value, fg__type type)
 {
@@ -77,14 +78,40 @@ static void find_unsigned(fg__packing *p, const fg__variable *v)
   }
 }
 
+bool fg__is_given_missing(const fg__missing_numbers *given, double value)
+{
+  for (int n = 0; n < given->count; ++n)
+    if ((float)value >= (float)given->number[n] &&
+        (float)value <= (float)given->number[n])
+      return true;
+  return false;
+}
+
+/* Degrees of which those in the west or south are positive are read as if packed. */
+static bool counts_west_or_south(const fg__variable *v)
+{
+  char text[FG__TEXT_BYTES];
+  fg__unit unit = {.factor = 1.0};
+  if (fg__attribute_text(v, "units", text, sizeof text))
+    fg__unit_read(&unit, text);
+  return unit.factor < 0.0;
+}
+
 fg__packing fg__packing_of(const fg__variable *variable)
 {
-  fg__packing p = {.scale = 1.0, .offset = 0.0};
+  fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
   const int scaled = fg__attribute_numbers(variable, "scale_factor", &p.scale, 1);
   const int moved = fg__attribute_numbers(variable, "add_offset", &p.offset, 1);
   find_fills(&p, variable);
   find_range(&p, variable, scaled + moved > 0);
   find_unsigned(&p, variable);
+  if (counts_west_or_south(variable)) {
+    const double least = p.least;
+    p.scale = -p.scale;
+    p.offset = -p.offset;
+    p.least = p.range_unpacked ? -p.largest : least;
+    p.largest = p.range_unpacked ? -least : p.largest;
+  }
   return p;
 }
 
@@ -102,6 +129,10 @@ double fg__unpack(const fg__packing *packing, double stored, fg__missing_counts 
       return (double)NAN;
     }
   const double value = stored * packing->scale + packing->offset;
+  if (packing->given->count > 0 && fg__is_given_missing(packing->given, value)) {
+    ++missing->fill;
+    return (double)NAN;
+  }
   const double ranged = packing->range_unpacked ? value : stored;
   if (ranged < packing->least || ranged > packing->largest) {
     ++missing->range;

@@ -352,6 +352,7 @@ static fg_status copy_words(fg_field *field, fg_context *context,
   copied = copied && copy_word(field, &own->time, arrays->time, NULL);
   copied = copied && copy_word(field, &own->level, arrays->level, NULL);
   copied = copied && copy_word(field, &own->projection, arrays->projection, NULL);
+  copied = copied && copy_word(field, &own->doubts, arrays->doubts, NULL);
   return copied ? FG_STATUS_OK : fg__fail_memory(context, "the field's words", 0);
 }
 

@@ -32,12 +32,9 @@ static fg_status read_coordinates(const fg__grid_axis *axis, const fg__dataset *
   const fg_status status = fg__variable_fetch(coordinate, start, size, out);
   if (status != FG_STATUS_OK)
     return status;
-  double scale = 1.0;
-  double offset = 0.0;
-  fg__attribute_numbers(coordinate, "scale_factor", &scale, 1);
-  fg__attribute_numbers(coordinate, "add_offset", &offset, 1);
+  const fg__packing p = fg__packing_of(coordinate);
   for (size_t i = 0; i < axis->size; ++i)
-    out[i] = out[i] * scale + offset;
+    out[i] = out[i] * p.scale + p.offset;
   return FG_STATUS_OK;
 }
 

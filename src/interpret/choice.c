@@ -85,10 +85,11 @@ static const fg__variable *find_named(const fg__dataset *data, const char *name,
 static const fg__variable *find_direction(const fg__dataset *data)
 {
   fg__polar ignored;
-  for (size_t i = 0; i < data->variable_count; ++i)
-    if (data->variables[i].rank >= 2 && data->variables[i].geographic == FG__NO_ROLE &&
-        fg__direction(&ignored, &data->variables[i]))
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__term term = fg__term_of(&data->variables[i]);
+    if (data->variables[i].rank >= 2 && fg__direction_read(&ignored, &term))
       return &data->variables[i];
+  }
   return NULL;
 }
 
@@ -183,8 +184,9 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
     if (out->component[k] == out->component[(k + 1) % count])
       return fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
                       data->file[0].path, count == 2 ? "both" : "two", name[k]);
-  const fg_status status = count == 2 ? fg__settle_polar(out, data) : FG_STATUS_OK;
-  return status == FG_STATUS_OK ? check_order(data, all, out) : status;
+  if (count == 2)
+    fg__settle_polar(out);
+  return check_order(data, all, out);
 }
 
 static fg_status fail_unusable(const fg__dataset *data, const fg__pair *pair,

@@ -2,7 +2,7 @@
  * an ensemble. */
 #include "base/memory.h"
 #include "flowgrain/inventory.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
 
 #include <math.h>
 #include <stdio.h>

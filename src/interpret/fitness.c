@@ -68,6 +68,28 @@ static bool same_numbers(const fg__variable *a, const fg__variable *b, size_t n,
   return true;
 }
 
+/* Whether a file has longitudes in two dimensions, of which one is `dimension`. */
+static bool has_plane_along(const fg__dataset *data, int dimension)
+{
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (v->rank == 2 && v->geographic == FG__ROLE_X &&
+        (v->dimension[0] == dimension || v->dimension[1] == dimension))
+      return true;
+  }
+  return false;
+}
+
+/* Coordinates that only count samples (i and i_g of MITgcm) say nothing of places where
+ * the file has positions. */
+static bool only_count(const fg__dataset *data, const fg__variable *of_a,
+                       const fg__variable *of_b)
+{
+  return fg__may_be_index(of_a) && fg__may_be_index(of_b) &&
+         (has_plane_along(data, of_a->dimension[0]) ||
+          has_plane_along(data, of_b->dimension[0]));
+}
+
 static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
                              const fg__variable *b, int k)
 {
@@ -80,8 +102,8 @@ static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
     return !of_a && !of_b && a->file != b->file &&
            (!by_name || strcmp(data->dimensions[a->dimension[k]].name,
                                data->dimensions[b->dimension[k]].name) == 0);
-  return fits_file(data, of_a, n) && fits_file(data, of_b, n) &&
-         same_numbers(of_a, of_b, n, 0.0);
+  return !only_count(data, of_a, of_b) && fits_file(data, of_a, n) &&
+         fits_file(data, of_b, n) && same_numbers(of_a, of_b, n, 0.0);
 }
 
 /* Whether two coordinates of n numbers, in one unit, have a value that differs by more

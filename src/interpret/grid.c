@@ -1,13 +1,15 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
 #include "interpret/unstructured/unstructured.h"
+#include "terms/frame.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 /* 2^31 samples take 24 gigabytes while a field is made; more is taken as damage. */
 static const size_t MOST_SAMPLES = (size_t)1 << 31;
@@ -133,11 +135,26 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
   return NULL;
 }
 
+/* Components along the grid are along axes only where its columns run east. */
+static void refuse_turned(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                          fg_frame frame, int columns, bool *found)
+{
+  const bool turned = grid->axis[0].dimension != columns || grid->axis[0].reversed;
+  if (!*found || !turned || !fg__is_along_grid(grid, data, pair, frame))
+    return;
+  *found = false;
+  grid->off_axes = true;
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' is along a grid whose columns do not run east",
+                   pair->component[0]->plain_name);
+}
+
 /* Two-dimensional longitudes and latitudes as axes, where both components have the same;
  * where each has its own the grid is off_axes, as curvilinear ones are. */
 static fg_status read_plane(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
-                            bool *found)
+                            fg_frame frame, bool *found)
 {
+  const int columns = grid->axis[0].dimension;
   const fg__variable *u = pair->component[0], *v = pair->component[1];
   bool apart = false;
   if (grid->scale == FG_SCALE_AUTO || grid->scale == FG_SCALE_GEO) {
@@ -145,8 +162,11 @@ static fg_status read_plane(fg__grid *grid, const fg__dataset *data, const fg__p
     if (status != FG_STATUS_OK)
       return status;
   }
-  if (!apart)
-    return fg__plane_find(grid, data, u, found);
+  if (!apart) {
+    const fg_status status = fg__plane_find(grid, data, u, found);
+    refuse_turned(grid, data, pair, frame, columns, found);
+    return status;
+  }
   grid->off_axes = true;
   fg__set_unusable(grid->unusable,
                    "'%.60s' and '%.60s' have longitudes and latitudes of their own: a "
@@ -155,22 +175,81 @@ static fg_status read_plane(fg__grid *grid, const fg__dataset *data, const fg__p
   return FG_STATUS_OK;
 }
 
-static fg_status read_axes(fg__grid *grid, const fg__dataset *data, const fg__pair *pair)
+static bool is_called_geographic(const fg__variable *v)
+{
+  char text[FG__TEXT_BYTES];
+  return fg__attribute_text(v, "standard_name", text, sizeof text) ||
+         strncasecmp(v->plain_name, "lon", 3) == 0 ||
+         strncasecmp(v->plain_name, "lat", 3) == 0;
+}
+
+/* Whether an axis counts from 0 or 1, as sample numbers do. */
+static bool counts_samples(const fg__grid_axis *axis)
+{
+  if (axis->period > 0.0 || (axis->coordinate[0] != 0.0 && axis->coordinate[0] != 1.0))
+    return false;
+  for (size_t i = 1; i < axis->size; ++i)
+    if (axis->coordinate[i] != axis->coordinate[0] + (double)i)
+      return false;
+  return true;
+}
+
+/* Degrees that count samples on both axes (grid_xt and grid_yt of FV3) are no places,
+ * unless the coordinates are called longitude and latitude. */
+static void check_counting(fg__grid *grid, const fg__variable *const coordinate[2])
+{
+  const fg__grid_axis *x = &grid->axis[0], *y = &grid->axis[1];
+  if (!coordinate[0] || !coordinate[1] || x->quantity != FG__QUANTITY_DEGREES_EAST ||
+      y->quantity != FG__QUANTITY_DEGREES_NORTH || !counts_samples(x) ||
+      !counts_samples(y) || x->coordinate[0] != y->coordinate[0])
+    return;
+  if (is_called_geographic(coordinate[0]) && is_called_geographic(coordinate[1])) {
+    fg__doubt(grid->doubts,
+              "'%.60s' and '%.60s' count from %g in steps of 1 degree, as "
+              "sample numbers do",
+              coordinate[0]->plain_name, coordinate[1]->plain_name, x->coordinate[0]);
+    return;
+  }
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' and '%.60s' are in degrees, but count samples: "
+                   "%g to %g and %g to %g",
+                   coordinate[0]->plain_name, coordinate[1]->plain_name, x->coordinate[0],
+                   x->coordinate[x->size - 1], y->coordinate[0],
+                   y->coordinate[y->size - 1]);
+  snprintf(
+      grid->hint, sizeof grid->hint,
+      "--mesh-from names a file with the positions; --scale geo takes them for degrees, "
+      "--scale plain for sample numbers");
+}
+
+static fg_status read_axes(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                           fg_frame frame)
 {
   const fg__variable *v = pair->component[0];
   const fg__variable *coordinate[2];
+  const bool is_free = grid->scale == FG_SCALE_AUTO;
   bool both = true;
   for (int k = 0; k < 2; ++k) {
     coordinate[k] = fg__grid_axis_coordinate(data, grid, v, k);
     both = both && coordinate[k] && !fg__may_be_index(coordinate[k]);
   }
   /* longitudes and latitudes along the axes may be nominal (MOM) */
-  const bool nominal = both && coordinate[0]->geographic == FG__ROLE_X &&
-                       coordinate[1]->geographic == FG__ROLE_Y &&
-                       fg__names_plane(grid, data, v);
+  const bool geographic = both && coordinate[0]->geographic == FG__ROLE_X &&
+                          coordinate[1]->geographic == FG__ROLE_Y;
+  bool nominal = geographic && fg__names_plane(grid, data, v);
+  if (geographic && !nominal && is_free) {
+    const fg_status status = fg__plane_contradicts(&nominal, grid, data, v, coordinate);
+    if (status != FG_STATUS_OK)
+      return status;
+    if (nominal)
+      fg__doubt(grid->doubts,
+                "'%.60s' and '%.60s' are not where the longitudes and "
+                "latitudes in two dimensions are, which are taken",
+                coordinate[0]->plain_name, coordinate[1]->plain_name);
+  }
   if (!both || nominal) {
     bool found = false;
-    fg_status status = read_plane(grid, data, pair, &found);
+    fg_status status = read_plane(grid, data, pair, frame, &found);
     if (status != FG_STATUS_OK || found || !is_usable(grid))
       return status;
   }
@@ -180,6 +259,8 @@ static fg_status read_axes(fg__grid *grid, const fg__dataset *data, const fg__pa
     if (status != FG_STATUS_OK)
       return status;
   }
+  if (is_free && is_usable(grid))
+    check_counting(grid, coordinate);
   return FG_STATUS_OK;
 }
 
@@ -245,7 +326,8 @@ static void check_directions(fg__grid *grid, const fg__dataset *data,
   static const char *const upright[] = {"mercator", "latitude_longitude",
                                         "lambert_cylindrical_equal_area"};
   char mapping[FG__TEXT_BYTES];
-  const bool east = pair->polar.sense != 0 || fg__says_east(u);
+  const fg__term term = fg__term_of(u);
+  const bool east = pair->polar.sense != 0 || fg__says_east(&term);
   if (frame == FG_FRAME_GRID || (frame == FG_FRAME_AUTO && !east))
     return;
   if (grid->projection[0]) {
@@ -271,12 +353,12 @@ static void check_directions(fg__grid *grid, const fg__dataset *data,
 /* In a plane of unknown projection points are placed by longitude and latitude, where the
  * file has them. */
 static fg_status prefer_positions(fg__grid *grid, const fg__dataset *data,
-                                  const fg__pair *pair)
+                                  const fg__pair *pair, fg_frame frame)
 {
   const fg_scale of_plane = grid->scale;
   bool found = false;
   grid->scale = FG_SCALE_AUTO;
-  const fg_status status = read_plane(grid, data, pair, &found);
+  const fg_status status = read_plane(grid, data, pair, frame, &found);
   grid->scale = found ? FG_SCALE_GEO : of_plane;
   set_positions(grid, pair->component[0]);
   return status;
@@ -297,7 +379,7 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
     grid->scale = FG_SCALE_MAP;
   else if (wanted == FG_SCALE_AUTO && grid->scale != FG_SCALE_GEO && is_usable(grid) &&
            !grid->faces.used)
-    status = prefer_positions(grid, data, pair);
+    status = prefer_positions(grid, data, pair, options->frame);
   if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO || pair->polar.sense != 0) &&
       is_usable(grid))
     check_directions(grid, data, pair, options->frame);
@@ -320,7 +402,7 @@ static fg_status find_on_axes(fg__grid *grid, const fg__dataset *data,
   fg__check_shapes(grid, data, u, pair->component[1]);
   if (!is_usable(grid))
     return FG_STATUS_OK;
-  fg_status status = read_axes(grid, data, pair);
+  fg_status status = read_axes(grid, data, pair, options->frame);
   if (status != FG_STATUS_OK || !is_usable(grid))
     return status;
   set_positions(grid, u);

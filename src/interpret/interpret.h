@@ -7,7 +7,8 @@
 #include "dataset/dataset.h"
 #include "flowgrain/field.h"
 #include "interpret/inventory.h"
-#include "interpret/polar.h"
+#include "terms/polar.h"
+#include "terms/units.h"
 
 /* chosen.c. Chooses samples of dimensions, "number=2,expver=0": the dimensions become
  * ones of that sample alone. ARGUMENT, UNSUPPORTED, MEMORY. */
@@ -31,27 +32,6 @@ fg_status fg__dimension_label(char out[FG__TEXT_BYTES], const fg__dataset *data,
 fg_status fg__dimension_labels(fg_axis_value **out, char **text, const fg__dataset *data,
                                int dimension);
 
-typedef enum fg__quantity {
-  FG__QUANTITY_UNKNOWN = 0, /* no units, or unknown ones */
-  FG__QUANTITY_SPEED,
-  FG__QUANTITY_ANGULAR_SPEED,
-  FG__QUANTITY_LENGTH,
-  FG__QUANTITY_DEGREES,
-  FG__QUANTITY_DEGREES_EAST,
-  FG__QUANTITY_DEGREES_NORTH,
-  FG__QUANTITY_PRESSURE,
-  FG__QUANTITY_DATE /* "hours since ..." */
-} fg__quantity;
-
-/* The other unit of dates, which CDI writes (ICON, ECHAM): the number 20200115.25. */
-#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f"
-
-/* Classifies units and writes them in the form of an axis label: "m s**-1" as "m/s". */
-fg__quantity fg__units_read(const char *units, char *label, size_t size);
-
-/* The seconds of a unit of time ("hours"); false for any other unit. */
-bool fg__units_seconds(const char *units, double *out);
-
 typedef struct fg__pair {
   const fg__variable *component[3]; /* the third NULL when there is none */
   bool volume;                      /* the options name all three */
@@ -67,30 +47,17 @@ fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
 /* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data);
 
-/* The third component of a pair: a variable of the same dimensions and units, with a
- * matching name; NULL: none. */
-const fg__variable *fg__third_component(const fg__dataset *data, const fg__pair *pair);
+/* What a variable is called and says of itself; texts are borrowed. */
+fg__term fg__term_of(const fg__variable *v);
 
-/* polar.c. Whether a variable is a direction, and what it is measured in. */
-bool fg__direction(fg__polar *out, const fg__variable *v);
-
-/* Fills in components and polar where a variable is a direction and has a speed at its
- * places, by their standard names; else false. */
-bool fg__find_polar(fg__pair *out, const fg__dataset *data,
-                    const fg__variable *direction);
-
-/* Makes a named pair of a speed and a direction, in either order, polar. ARGUMENT (a
- * direction beside what is no speed). */
-fg_status fg__settle_polar(fg__pair *pair, const fg__dataset *data);
+/* polar.c. Makes a named pair of a length and its direction, in either order, polar. */
+void fg__settle_polar(fg__pair *pair);
 
 /* The name of a component; NULL: a speed and a direction become components without. */
 const char *fg__component_name(const fg__pair *pair, int k);
 
 /* What a polar pair is, and which rule says so. */
 void fg__pair_polar_words(char *out, size_t size, const fg__pair *pair);
-
-/* Sets what a variable's attributes tell of it. */
-void fg__classify(fg__variable *variable);
 
 /* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
 const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
@@ -159,6 +126,7 @@ typedef struct fg__grid {
   size_t samples;   /* product of the axes' sizes */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
   char hint[FG__TEXT_BYTES];
+  char doubts[FG__REASON_BYTES]; /* lines: what is unsure of all this */
 } fg__grid;
 
 /* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
@@ -209,6 +177,12 @@ fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
  * MEMORY, FILE_ACCESS. */
 fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset *data,
                             const fg__variable *u, const fg__variable *v);
+
+/* Whether most longitudes or latitudes in two dimensions are others than those of the
+ * coordinates along the grid's axes. MEMORY, FILE_ACCESS. */
+fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
+                                const fg__variable *variable,
+                                const fg__variable *const coordinate[2]);
 
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__alike_dimension(const fg__dataset *data, int a, int b);
@@ -299,6 +273,16 @@ fg_status fg__index_words(const fg__variable *coordinate, const char *name, size
 fg_status fg__defaults_find(fg_read_defaults *out, const fg__dataset *data,
                             const fg__pair *pair, const fg__grid *grid,
                             const fg_read_options *options);
+
+/* date_texts.c. The variable with a date as text for each index of a dimension, or
+ * NULL. */
+const fg__variable *fg__date_texts(const fg__dataset *data, int dimension);
+
+/* The date at one index, "" where the text is no date. Then fg__grid_axis_values of all
+ * dates, whose numbers are NaN; NULL where one of the texts is no date. */
+fg_status fg__date_text(char *out, size_t size, const fg__variable *texts, size_t index);
+fg_status fg__date_values(fg_axis_value **out, char **text, const fg__variable *texts,
+                          size_t count);
 
 /* The values of a time or level axis; their texts point into *text. Both are for free().
  * NULL where there is no coordinate, or too many values to choose from. */

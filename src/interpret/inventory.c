@@ -16,7 +16,7 @@ typedef struct entry {
   char *name[3];
   char *units;
   char *found_by;
-  char *unusable, *frame, *plane, *absent, *chosen;
+  char *unusable, *frame, *plane, *absent, *chosen, *doubts;
   value_list time, level;
 } entry;
 
@@ -34,6 +34,20 @@ void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(reason, FG__REASON_BYTES, format, arguments);
+  va_end(arguments);
+}
+
+void fg__doubt(char doubts[FG__REASON_BYTES], const char *format, ...)
+{
+  const size_t used = strlen(doubts);
+  va_list arguments;
+  va_start(arguments, format);
+  if (used + 2 < FG__REASON_BYTES) {
+    const size_t start = used > 0 ? used + 1 : 0;
+    if (used > 0)
+      memcpy(doubts + used, "\n", 2);
+    vsnprintf(doubts + start, FG__REASON_BYTES - start, format, arguments);
+  }
   va_end(arguments);
 }
 
@@ -89,6 +103,7 @@ static void clear_entry(entry *e)
   free(e->plane);
   free(e->absent);
   free(e->chosen);
+  free(e->doubts);
 }
 
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
@@ -112,9 +127,11 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.plane = fg__copy_text(vector->plane);
   e.absent = fg__copy_text(vector->absent);
   e.chosen = fg__copy_text(vector->chosen);
+  e.doubts = fg__copy_text(vector->doubts);
   copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
            (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
-           (e.absent || !vector->absent) && (e.chosen || !vector->chosen);
+           (e.absent || !vector->absent) && (e.chosen || !vector->chosen) &&
+           (e.doubts || !vector->doubts);
   e.vector.units = e.units;
   e.vector.found_by = e.found_by;
   e.vector.unusable = e.unusable;
@@ -122,6 +139,7 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   e.vector.plane = e.plane;
   e.vector.absent = e.absent;
   e.vector.chosen = e.chosen;
+  e.vector.doubts = e.doubts;
   void *entries = inventory->entries;
   if (!copied ||
       !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {

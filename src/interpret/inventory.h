@@ -5,8 +5,13 @@
 #include "base/context.h"
 #include "flowgrain/inventory.h"
 
-/* Sets the reason why a vector of a file cannot be read, unless one is set already. */
 enum { FG__REASON_BYTES = 512 };
+
+/* Adds a line to what is unsure of a reading, where there is room. */
+void fg__doubt(char doubts[FG__REASON_BYTES], const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Sets the reason why a vector of a file cannot be read, unless one is set already. */
 void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -225,6 +225,50 @@ fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset
   return status;
 }
 
+/* Whether most values of a coordinate along a dimension of a plane are others than the
+ * plane's; `along` is which of its dimensions. */
+static bool most_contradict(const plane *p, const double *axis, size_t n0, size_t n1,
+                            int along, bool longitude)
+{
+  const double limit = 0.5 * step_of(p, n0, n1, longitude);
+  size_t differ = 0;
+  for (size_t i = 0; i < n0; ++i)
+    for (size_t j = 0; j < n1; ++j) {
+      const double d = p->value[i * n1 + j] - axis[along == 0 ? i : j];
+      differ += fabs(longitude ? remainder(d, 360.0) : d) > limit;
+    }
+  return 2 * differ > n0 * n1;
+}
+
+fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
+                                const fg__variable *variable,
+                                const fg__variable *const coordinate[2])
+{
+  fg_status status = FG_STATUS_OK;
+  *out = false;
+  for (int k = 0; k < 2 && status == FG_STATUS_OK && !*out; ++k) {
+    plane p = {fg__plane_coordinate(grid, data, variable, (fg__role)k), NULL};
+    if (!p.variable || coordinate[k]->rank != 1)
+      return FG_STATUS_OK;
+    const int *dimension = last_dimensions(p.variable);
+    const size_t size[2] = {data->dimensions[dimension[0]].length,
+                            data->dimensions[dimension[1]].length};
+    const int along =
+        fg__alike_dimension(data, dimension[0], grid->axis[k].dimension) ? 0 : 1;
+    const size_t start = 0;
+    double *axis = fg__allocate(size[along], sizeof *axis);
+    status = axis ? read_plane(&p, data)
+                  : fg__fail_memory(data->context, "an axis", size[along] * sizeof *axis);
+    if (status == FG_STATUS_OK)
+      status = fg__variable_fetch(coordinate[k], &start, &size[along], axis);
+    if (status == FG_STATUS_OK)
+      *out = most_contradict(&p, axis, size[0], size[1], along, k == 0);
+    free(axis);
+    free(p.value);
+  }
+  return status;
+}
+
 fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
                          const fg__variable *variable, bool *found)
 {

@@ -2,186 +2,21 @@
  * conventions, chapter 4), then by their names, then by their order. */
 #include "interpret/interpret.h"
 
-#include <ctype.h>
 #include <string.h>
-#include <strings.h>
-
-typedef struct word_role {
-  const char *word;
-  fg__role role;
-} word_role;
-
-static fg__role find_role(const word_role *table, size_t count, const char *word)
-{
-  for (size_t i = 0; i < count; ++i)
-    if (strcasecmp(table[i].word, word) == 0)
-      return table[i].role;
-  return FG__NO_ROLE;
-}
-
-static fg__role role_of_standard_name(const char *name)
-{
-  static const word_role known[] = {
-      {"longitude", FG__ROLE_X},
-      {"grid_longitude", FG__ROLE_X},
-      {"projection_x_coordinate", FG__ROLE_X},
-      {"projection_x_angular_coordinate", FG__ROLE_X},
-      {"x_grid_index", FG__ROLE_X},
-      {"latitude", FG__ROLE_Y},
-      {"grid_latitude", FG__ROLE_Y},
-      {"projection_y_coordinate", FG__ROLE_Y},
-      {"projection_y_angular_coordinate", FG__ROLE_Y},
-      {"y_grid_index", FG__ROLE_Y},
-      {"time", FG__ROLE_TIME},
-      {"forecast_period", FG__ROLE_TIME},
-      {"forecast_reference_time", FG__ROLE_TIME},
-      {"depth", FG__ROLE_LEVEL},
-      {"height", FG__ROLE_LEVEL},
-      {"altitude", FG__ROLE_LEVEL},
-      {"geopotential_height", FG__ROLE_LEVEL},
-      {"air_pressure", FG__ROLE_LEVEL},
-      {"sea_water_pressure", FG__ROLE_LEVEL},
-      {"model_level_number", FG__ROLE_LEVEL},
-  };
-  if (strstr(name, "sigma") || strstr(name, "ocean_s_coordinate") ||
-      strstr(name, "hybrid"))
-    return FG__ROLE_LEVEL;
-  return find_role(known, sizeof known / sizeof *known, name);
-}
 
 static fg__role role_of_attributes(const fg__variable *coordinate)
 {
-  static const word_role axis[] = {
-      {"X", FG__ROLE_X}, {"Y", FG__ROLE_Y}, {"T", FG__ROLE_TIME}, {"Z", FG__ROLE_LEVEL}};
-  char text[FG__TEXT_BYTES];
-  char label[FG__TEXT_BYTES];
-  fg__attribute_text(coordinate, "axis", text, sizeof text);
-  fg__role role = find_role(axis, sizeof axis / sizeof *axis, text);
-  if (role == FG__NO_ROLE &&
-      fg__attribute_text(coordinate, "standard_name", text, sizeof text))
-    role = role_of_standard_name(text);
-  if (role != FG__NO_ROLE)
-    return role;
-  fg__attribute_text(coordinate, "units", text, sizeof text);
-  switch (fg__units_read(text, label, sizeof label)) {
-  case FG__QUANTITY_DEGREES_EAST:
-    return FG__ROLE_X;
-  case FG__QUANTITY_DEGREES_NORTH:
-    return FG__ROLE_Y;
-  case FG__QUANTITY_DATE:
-    return FG__ROLE_TIME;
-  case FG__QUANTITY_PRESSURE:
-    return FG__ROLE_LEVEL;
-  default:
-    break;
-  }
-  if (fg__attribute_text(coordinate, "positive", text, sizeof text))
-    return FG__ROLE_LEVEL;
-  return FG__NO_ROLE;
-}
-
-static bool starts_with(const char *text, const char *start)
-{
-  return strncasecmp(text, start, strlen(start)) == 0;
-}
-
-static bool starts_with_any(const char *text, const char *const *starts, size_t count)
-{
-  for (size_t i = 0; i < count; ++i)
-    if (starts_with(text, starts[i]))
-      return true;
-  return false;
-}
-
-/* Only unambiguous names: in files converted from GRIB "gridx" is an index. */
-static fg__role role_of_name(const char *name)
-{
-  static const word_role whole[] = {
-      {"x", FG__ROLE_X},        {"nx", FG__ROLE_X},       {"i", FG__ROLE_X},
-      {"ni", FG__ROLE_X},       {"nlon", FG__ROLE_X},     {"easting", FG__ROLE_X},
-      {"xc", FG__ROLE_X},       {"y", FG__ROLE_Y},        {"ny", FG__ROLE_Y},
-      {"j", FG__ROLE_Y},        {"nj", FG__ROLE_Y},       {"nlat", FG__ROLE_Y},
-      {"northing", FG__ROLE_Y}, {"yc", FG__ROLE_Y},       {"t", FG__ROLE_TIME},
-      {"date", FG__ROLE_TIME},  {"month", FG__ROLE_TIME}, {"record", FG__ROLE_TIME},
-      {"step", FG__ROLE_TIME},  {"z", FG__ROLE_LEVEL},    {"nz", FG__ROLE_LEVEL},
-      {"k", FG__ROLE_LEVEL},    {"alt", FG__ROLE_LEVEL},  {"s_rho", FG__ROLE_LEVEL},
-      {"rlon", FG__ROLE_X},     {"rlat", FG__ROLE_Y},
-  };
-  static const char *const x[] = {"lon", "xi_", "west_east", "xt_", "xu_", "x_"};
-  static const char *const y[] = {"lat", "eta_", "south_north", "yt_", "yu_", "y_"};
-  static const char *const level[] = {"lev",    "lv_",        "depth",  "height",
-                                      "plev",   "press",      "isobar", "sigma",
-                                      "hybrid", "bottom_top", "layer",  "altitude"};
-  const fg__role role = find_role(whole, sizeof whole / sizeof *whole, name);
-  if (role != FG__NO_ROLE)
-    return role;
-  for (const char *c = name; *c; ++c)
-    if (starts_with(c, "time"))
-      return FG__ROLE_TIME;
-  if (starts_with_any(name, x, sizeof x / sizeof *x))
-    return FG__ROLE_X;
-  if (starts_with_any(name, y, sizeof y / sizeof *y))
-    return FG__ROLE_Y;
-  if (starts_with_any(name, level, sizeof level / sizeof *level))
-    return FG__ROLE_LEVEL;
-  return FG__NO_ROLE;
-}
-
-static fg__role geographic_role(const fg__variable *coordinate)
-{
-  char text[FG__TEXT_BYTES];
-  char label[FG__TEXT_BYTES];
-  fg__attribute_text(coordinate, "units", text, sizeof text);
-  const bool has_units = text[0] != '\0';
-  const fg__quantity quantity = fg__units_read(text, label, sizeof label);
-  if (quantity == FG__QUANTITY_DEGREES_EAST)
-    return FG__ROLE_X;
-  if (quantity == FG__QUANTITY_DEGREES_NORTH)
-    return FG__ROLE_Y;
-  if (has_units && quantity != FG__QUANTITY_DEGREES)
-    return FG__NO_ROLE;
-  fg__attribute_text(coordinate, "standard_name", text, sizeof text);
-  if (strcmp(text, "longitude") == 0)
-    return FG__ROLE_X;
-  if (strcmp(text, "latitude") == 0)
-    return FG__ROLE_Y;
-  if (text[0] != '\0')
-    return FG__NO_ROLE;
-  const char *name = coordinate->plain_name;
-  if (starts_with(name, "lon") || strcasecmp(name, "nav_lon") == 0 ||
-      strcasecmp(name, "xlong") == 0)
-    return FG__ROLE_X;
-  if (starts_with(name, "lat") || strcasecmp(name, "nav_lat") == 0 ||
-      strcasecmp(name, "xlat") == 0)
-    return FG__ROLE_Y;
-  return FG__NO_ROLE;
-}
-
-/* CF: "upward_air_velocity", "upward_sea_water_velocity". */
-static bool is_upward_velocity(const fg__variable *v)
-{
-  char name[FG__TEXT_BYTES];
-  fg__attribute_text(v, "standard_name", name, sizeof name);
-  return strncmp(name, "upward_", 7) == 0 && strstr(name, "velocity");
-}
-
-void fg__classify(fg__variable *variable)
-{
-  variable->geographic = geographic_role(variable);
-  variable->upward = is_upward_velocity(variable);
+  char axis[FG__TEXT_BYTES];
+  const fg__term term = fg__term_of(coordinate);
+  fg__attribute_text(coordinate, "axis", axis, sizeof axis);
+  return fg__role_of_attributes(&term, axis,
+                                fg__attribute_find(coordinate, "positive") != NULL);
 }
 
 bool fg__may_be_index(const fg__variable *coordinate)
 {
-  char text[FG__TEXT_BYTES];
-  char label[FG__TEXT_BYTES];
-  fg__attribute_text(coordinate, "standard_name", text, sizeof text);
-  if (strstr(text, "grid_index"))
-    return true;
-  if (text[0] != '\0' || coordinate->geographic != FG__NO_ROLE)
-    return false;
-  fg__attribute_text(coordinate, "units", text, sizeof text);
-  return fg__units_read(text, label, sizeof label) == FG__QUANTITY_UNKNOWN;
+  const fg__term term = fg__term_of(coordinate);
+  return fg__term_may_be_index(&term);
 }
 
 /* The dimension of a file with positions may be another of that name. */
@@ -295,9 +130,9 @@ static claim claim_of(const fg__dataset *data, const fg__variable *variable, int
   if (c.role != FG__NO_ROLE)
     return c;
   c.strength = 1;
-  c.role = role_of_name(data->dimensions[variable->dimension[k]].name);
+  c.role = fg__role_of_name(data->dimensions[variable->dimension[k]].name);
   if (c.role == FG__NO_ROLE && coordinate)
-    c.role = role_of_name(coordinate->plain_name);
+    c.role = fg__role_of_name(coordinate->plain_name);
   return c;
 }
 

@@ -6,12 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool same_dimensions(const fg__variable *a, const fg__variable *b)
-{
-  return a->rank == b->rank &&
-         memcmp(a->dimension, b->dimension, (size_t)a->rank * sizeof *a->dimension) == 0;
-}
-
 static void units_label(const fg__variable *v, char label[FG__TEXT_BYTES])
 {
   char text[FG__TEXT_BYTES];
@@ -25,45 +19,6 @@ static bool same_units(const fg__variable *a, const fg__variable *b)
   units_label(a, of_a);
   units_label(b, of_b);
   return strcmp(of_a, of_b) == 0;
-}
-
-/* Where the names of the pair differ, by letters u and v or x and y, the third has w or
- * z, and is otherwise equal: u v w, vx vy vz, uwnd vwnd wwnd, U_x U_y U_z. */
-static bool is_named_like(const char *w, const char *u, const char *v)
-{
-  static const char *const letters[] = {"uvw", "UVW", "xyz", "XYZ"};
-  const size_t length = strlen(u);
-  if (strlen(v) != length || strlen(w) != length)
-    return false;
-  for (size_t i = 0; i < length; ++i) {
-    bool fits = u[i] == v[i] && u[i] == w[i];
-    for (size_t k = 0; k < 4 && u[i] != v[i]; ++k)
-      fits = fits ||
-             (u[i] == letters[k][0] && v[i] == letters[k][1] && w[i] == letters[k][2]);
-    if (!fits)
-      return false;
-  }
-  return true;
-}
-
-const fg__variable *fg__third_component(const fg__dataset *data, const fg__pair *pair)
-{
-  const fg__variable *u = pair->component[0], *v = pair->component[1];
-  const fg__variable *upward = NULL;
-  int upward_count = 0;
-  for (size_t i = 0; i < data->variable_count; ++i) {
-    const fg__variable *w = &data->variables[i];
-    if (w == u || w == v || !same_dimensions(u, w) || !fg__is_number(w))
-      continue;
-    const bool named = is_named_like(w->name, u->name, v->name);
-    if ((!named && !w->upward) || !same_units(u, w))
-      continue;
-    if (named)
-      return w;
-    upward = w;
-    ++upward_count;
-  }
-  return upward_count == 1 ? upward : NULL;
 }
 
 /* Maps and atmospheric layers are not read as a volume: they are a hundred times as wide

@@ -4,6 +4,7 @@
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
+#include "sample/missing.h"
 #include "sample/unstructured/mesh.h"
 #include "sample/velocity.h"
 
@@ -17,8 +18,10 @@ static fg_status open_file(fg__dataset *data, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source)
 {
   const fg_status status = format->open(data, context, source);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i)
-    fg__classify(&data->variables[i]);
+  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i) {
+    const fg__term term = fg__term_of(&data->variables[i]);
+    data->variables[i].geographic = fg__geographic_role(&term);
+  }
   return status;
 }
 
@@ -161,7 +164,8 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
                               .velocity_units = words.units,
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
-                              .level = words.level[0] ? words.level : NULL};
+                              .level = words.level[0] ? words.level : NULL,
+                              .doubts = grid->doubts[0] ? grid->doubts : NULL};
     if (!arrays.projection && fg__map_is_asked(options->map))
       arrays.projection = fg__axes_plane(plane, pair->component[0], grid);
     for (int k = 0; k < grid->dimension; ++k) {
@@ -202,6 +206,8 @@ static fg_status choose(fg__dataset *data, fg__pair *pair, fg__grid *grid,
                         const fg__source *source, const fg_read_options *options)
 {
   fg_status status = open_file(data, context, format, source);
+  if (status == FG_STATUS_OK)
+    status = fg__missing_read(&data->missing, context, options->missing);
   if (status == FG_STATUS_OK && options->vars_from) {
     status = add_file(data, context, format, options->vars_from);
     data->component_files = 2;
@@ -393,7 +399,7 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
 
 /* Fills in what requires reading the mesh or all samples. */
 static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset *data,
-                                  const fg__pair *pair, const fg__grid *grid)
+                                  const fg__pair *pair, fg__grid *grid)
 {
   if (grid->mesh)
     return fg__curvilinear_describe(vector, data, pair, grid);
@@ -402,10 +408,21 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
   return count_missing(vector, data, pair, grid);
 }
 
+/* Takes the message of a refusal, without the file's name, and its hint. */
+static void take_refusal(char *out, size_t size, const fg__dataset *data)
+{
+  const char *message = fg_context_message(data->context);
+  const size_t path = strlen(data->file[0].path);
+  if (strncmp(message, data->file[0].path, path) == 0 && message[path] == ':')
+    message += path + 1 + (message[path + 1] == ' ');
+  snprintf(out, size, "%s; %s", message, fg_context_hint(data->context));
+  fg_context_clear(data->context);
+}
+
 /* Adds the vector of a pair to the inventory. reads: the mesh or all samples may be
  * read. */
 static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
-                               const fg__pair *pair, const fg__grid *grid,
+                               const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
   vector_texts texts;
@@ -445,7 +462,13 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       vector.plane = fg__axes_plane(texts.plane, pair->component[0], grid);
     if (status == FG_STATUS_OK && reads)
       status = describe_samples(&vector, data, pair, grid);
+    if (status == FG_STATUS_ARGUMENT) { /* an option decides */
+      status = FG_STATUS_OK;
+      take_refusal(texts.unusable, sizeof texts.unusable, data);
+      vector.unusable = texts.unusable;
+    }
   }
+  vector.doubts = grid->doubts[0] ? grid->doubts : NULL;
   if (pair->polar.sense != 0 && !grid->mesh)
     vector.frame = describe_polar(&texts, pair, grid);
   return status == FG_STATUS_OK ? add_vector(inventory, &vector, data, grid) : status;

@@ -1,6 +1,7 @@
 #include "base/feature.h"
 #include "base/memory.h"
 #include "base/mix.h"
+#include "decode/signature.h"
 #include "field/slab.h"
 #include "map/project.h"
 #include "read/foreign.h"
@@ -95,9 +96,12 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   if (wanted)
     return find_named(out, context, wanted, source);
   *out = fg__format_find(source->bytes, source->size);
-  const fg__foreign *foreign = !*out || *out == &fg__format_table
-                                   ? fg__foreign_find(source->bytes, source->size)
-                                   : NULL;
+  const fg__foreign *foreign = NULL;
+  if (!*out || *out == &fg__format_table)
+    foreign = fg__foreign_find(source->bytes, source->size);
+  else if (*out == &fg__format_netcdf &&
+           fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
+    foreign = fg__foreign_hdf5(source->bytes, source->size);
   if (foreign) {
     fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is %s, which cannot be read",
              source->path, foreign->name);
@@ -291,6 +295,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
     return key;
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  key = mix_text(key, options->missing);
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);

@@ -2,6 +2,7 @@
  * mask. */
 #include "sample/velocity.h"
 #include "base/memory.h"
+#include "sample/missing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -171,6 +172,19 @@ static fg_status read_mask(fg__velocity_samples *out, const source *from,
   return status;
 }
 
+static fg_status settle_missing(const fg__velocity_samples *out, const source *from)
+{
+  fg__raw_samples raw = {.path = from->data->file[0].path,
+                         .components = from->grid->dimension,
+                         .count = row_size(from->grid) * (size_t)from->rows->held,
+                         .valid = out->valid};
+  for (int k = 0; k < raw.components; ++k) {
+    raw.name[k] = from->pair->component[k]->plain_name;
+    raw.component[k] = out->velocity[k];
+  }
+  return fg__missing_settle(from->data->context, &raw, &from->data->missing);
+}
+
 fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset *data,
                                     const fg__pair *pair, const fg__grid *grid,
                                     const fg__rows *rows, size_t time, size_t level,
@@ -181,12 +195,16 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
     status = read_component(out, &from, k);
-  if (status == FG_STATUS_OK)
-    fg__polar_turn_all(out->velocity, row_size(grid) * (size_t)rows->held, &pair->polar);
-  if (status == FG_STATUS_OK && grid->faces.used)
-    close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
   if (status == FG_STATUS_OK && mask)
     status = read_mask(out, &from, mask);
+  if (status == FG_STATUS_OK)
+    status = settle_missing(out, &from);
+  if (status == FG_STATUS_OK)
+    status = fg__polar_turn_all(data->context, out->velocity,
+                                row_size(grid) * (size_t)rows->held, &pair->polar,
+                                data->file[0].path, pair->component[1]->plain_name);
+  if (status == FG_STATUS_OK && grid->faces.used)
+    close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
   return status;
 }
 

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "decode/grib/grib.h"
-#include "interpret/time_words.h"
+#include "terms/dates.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -244,9 +244,8 @@ static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field
     status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
   if (status == FG_STATUS_OK && t->error)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu does not say what it is of: %s",
-                    file->path, field->number,
-                    codes_get_error_message(t->error));
+                    "%s: message %zu does not say what it is of: %s", file->path,
+                    field->number, codes_get_error_message(t->error));
   return status;
 }
 
@@ -261,7 +260,8 @@ static fg_status intern_grid(int *out, fg__grib_file *file, const fg__grib_field
     }
   void *grids = file->grid;
   if (!fg__grow(&grids, &file->grid_capacity, file->grids + 1, sizeof *file->grid))
-    return fg__fail_memory(file->context, "grids", (file->grids + 1) * sizeof *file->grid);
+    return fg__fail_memory(file->context, "grids",
+                           (file->grids + 1) * sizeof *file->grid);
   file->grid = grids;
   fg__grib_grid *grid = &file->grid[file->grids];
   *out = (int)file->grids++;

@@ -1,6 +1,6 @@
-/* GRIB, editions 1 and 2, as a dataset: scan finds messages and their sections, about what
- * they are of, grid where their values are; dataset makes variables of them, whose values
- * `values` unpacks; library stands round every call of ecCodes. */
+/* GRIB, editions 1 and 2, as a dataset: scan finds messages and their sections, about
+ * what they are of, grid where their values are; dataset makes variables of them, whose
+ * values `values` unpacks; library stands round every call of ecCodes. */
 #ifndef FG__GRIB_H
 #define FG__GRIB_H
 
@@ -60,8 +60,8 @@ typedef enum fg__grib_layout {
 /* The coordinates of a plane in metres. */
 typedef struct fg__grib_projection {
   enum { FG__GRIB_LAMBERT, FG__GRIB_STEREOGRAPHIC, FG__GRIB_MERCATOR } kind;
-  double radius, minor, eccentricity;       /* half-axes in metres */
-  double meridian, origin, parallel[2];     /* degrees */
+  double radius, minor, eccentricity;   /* half-axes in metres */
+  double meridian, origin, parallel[2]; /* degrees */
   double cone, scale, apex;
 } fg__grib_projection;
 
@@ -81,32 +81,36 @@ typedef struct fg__grib_grid {
   size_t points;
   size_t size[2]; /* columns and rows; REDUCED: the longest row, and rows */
   bool x_descends, y_descends, along_y, alternates; /* how values follow each other */
-  bool relative;   /* components are along the grid, not to east and north */
-  double *axis[2]; /* [size] ascending; degrees or metres; of ROWS and REDUCED, about
-                      their own pole; REDUCED has no x */
-  double period;   /* of x: 360, or 0 */
-  size_t *row;     /* REDUCED: points of each row, from south to north */
+  bool relative;       /* components are along the grid, not to east and north */
+  double *axis[2];     /* [size] ascending; degrees or metres; of ROWS and REDUCED, about
+                          their own pole; REDUCED has no x */
+  double period;       /* of x: 360, or 0 */
+  size_t *row;         /* REDUCED: points of each row, from south to north */
   double *west, *step; /* REDUCED: first longitude of each row, and between points */
   bool rotated;        /* the pole below is not the Earth's */
   double pole_latitude, pole_longitude, pole_angle; /* of the south pole; degrees */
   fg__grib_projection projection;                   /* PLANE */
-  fg__grib_mesh mesh;                               /* ROWS and REDUCED, once it is made */
-  int dimension[2];     /* of x and y, or of the mesh's nodes: the dataset's indices */
+  fg__grib_mesh mesh; /* ROWS and REDUCED, once it is made */
+  int dimension[2];   /* of x and y, or of the mesh's nodes: the dataset's indices */
   char unusable[2 * FG__TEXT_BYTES]; /* "" or why its values cannot be read */
 } fg__grib_grid;
 
+/* What fields are compared by: PLACE is the kind, then all others. */
+typedef enum fg__grib_along {
+  FG__GRIB_TIME,
+  FG__GRIB_LEVEL,
+  FG__GRIB_MEMBER,
+  FG__GRIB_PLACE
+} fg__grib_along;
+
 /* The samples along time, level or member of variables that share them. */
 typedef struct fg__grib_axis {
-  enum { FG__GRIB_TIME, FG__GRIB_LEVEL, FG__GRIB_MEMBER } kind;
+  fg__grib_along along;
   char name[FG__GRIB_WORD];
   const fg__grib_field **at; /* [count] a field of each, in ascending order */
   size_t count;
   int dimension; /* index into the dataset's */
 } fg__grib_axis;
-
-typedef struct fg__grib_range {
-  size_t first, count;
-} fg__grib_range;
 
 /* A file that is open: the decoder's state. */
 typedef struct fg__grib_file {
@@ -123,11 +127,37 @@ typedef struct fg__grib_file {
   size_t grids, grid_capacity;
   fg__grib_axis *axis;
   size_t axes, axis_capacity;
-  const fg__grib_field **place; /* fields by kind, time, level and member */
-  fg__grib_range *places;       /* [kinds] of `place` */
+  const fg__grib_field **place;   /* fields by kind, time, level and member */
+  size_t *first;                  /* [kinds + 1] into `place` */
   const fg__grib_field *unpacked; /* the field whose values these are: */
   double *value;
 } fg__grib_file;
+
+/* describe.c: what a variable is, fg__variable.place; its `id` is the number of an axis,
+ * a grid or a kind. */
+typedef enum fg__grib_content {
+  FG__GRIB_SAMPLES,
+  FG__GRIB_STARTED, /* the times at which forecasts began, along an axis of time */
+  FG__GRIB_GRID_X,
+  FG__GRIB_GRID_Y,
+  FG__GRIB_POSITION_X, /* of a mesh's nodes, as are the two after the next */
+  FG__GRIB_POSITION_Y,
+  FG__GRIB_COSINE,
+  FG__GRIB_SINE,
+  FG__GRIB_FACES,
+  FG__GRIB_DESCRIPTION, /* of a projection or mesh: without a value */
+  FG__GRIB_FIELD
+} fg__grib_content;
+
+/* Adds a file's dimensions and variables. MEMORY. */
+fg_status fg__grib_describe(fg__dataset *data, fg__grib_file *file);
+
+int fg__grib_compare(fg__grib_along along, const fg__grib_field *a,
+                     const fg__grib_field *b);
+int fg__grib_by_place(const void *one, const void *other); /* for qsort */
+
+/* Whether values lie on axes, not on a mesh. */
+bool fg__grib_has_lines(const fg__grib_grid *grid);
 
 /* FILE_FORMAT, UNSUPPORTED, MEMORY. */
 fg_status fg__grib_scan(fg__grib_file *file);

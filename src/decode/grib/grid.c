@@ -156,8 +156,7 @@ static fg_status fill_longitudes(fg__grib_grid *grid, fg_context *context,
     last += last <= first ? 360.0 * (floor((first - last) / 360.0) + 1.0) : 0.0;
   const double width = fabs(last - first), step = width / (double)(grid->size[0] - 1);
   if (!isfinite(width) || width > 360.0 + ROUNDING || fabs(first) > 720.0) {
-    fg__grib_unusable(grid, "its longitudes go from %g to %g", n->first[0],
-                     n->last[0]);
+    fg__grib_unusable(grid, "its longitudes go from %g to %g", n->first[0], n->last[0]);
     return FG_STATUS_OK;
   }
   fill_evenly(grid->axis[0], grid->size[0], first, last);
@@ -191,9 +190,8 @@ static void take_gaussian(fg__grib_grid *grid, const double *all, size_t count,
   const double spacing = 180.0 / (double)count;
   if (grid->size[1] > count - at || fabs(all[at] - north) > 0.5 * spacing ||
       fabs(all[at + grid->size[1] - 1] - fmin(n->first[1], n->last[1])) > 0.5 * spacing) {
-    fg__grib_unusable(grid,
-                     "%zu rows from %g to %g are not of a Gaussian grid of %zu",
-                     grid->size[1], n->first[1], n->last[1], count);
+    fg__grib_unusable(grid, "%zu rows from %g to %g are not of a Gaussian grid of %zu",
+                      grid->size[1], n->first[1], n->last[1], count);
     return;
   }
   for (size_t j = 0; j < grid->size[1]; ++j)
@@ -206,9 +204,9 @@ static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
   const size_t half = count_of(n->gaussian);
   if (half == 0 || half > MOST_GAUSSIAN || grid->size[1] > 2 * half) {
     fg__grib_unusable(grid,
-                     "it has %zu rows of a Gaussian grid with %g from pole to "
-                     "equator",
-                     grid->size[1], n->gaussian);
+                      "it has %zu rows of a Gaussian grid with %g from pole to "
+                      "equator",
+                      grid->size[1], n->gaussian);
     return FG_STATUS_OK;
   }
   gaussian all = {.rows = (long)half};
@@ -219,7 +217,7 @@ static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
       fg__grib_guard(file, field, MOST_BYTES + field->size, ask_gaussian, &all);
   if (status == FG_STATUS_OK && all.error)
     fg__grib_unusable(grid, "its Gaussian latitudes: %s",
-                     codes_get_error_message(all.error));
+                      codes_get_error_message(all.error));
   else if (status == FG_STATUS_OK)
     take_gaussian(grid, all.latitude, 2 * half, n);
   free(all.latitude);
@@ -235,8 +233,8 @@ static fg_status fill_latitudes(fg__grib_grid *grid, const fg__grib_file *file,
     return status;
   if (!(fabs(first) <= 90.0 + ROUNDING && fabs(last) <= 90.0 + ROUNDING) ||
       (grid->y_descends ? !(first > last) : !(first < last))) {
-    fg__grib_unusable(grid, "its latitudes go from %g to %g, where they %s",
-                     first, last, grid->y_descends ? "descend" : "ascend");
+    fg__grib_unusable(grid, "its latitudes go from %g to %g, where they %s", first, last,
+                      grid->y_descends ? "descend" : "ascend");
     return FG_STATUS_OK;
   }
   if (strstr(grid->type, "gg"))
@@ -323,8 +321,8 @@ static fg_status find_rows(fg__grib_grid *grid, fg_context *context, const askin
       place_rows(grid, a, CUT_OUT) == grid->points ||
       place_rows(grid, a, BETWEEN) == grid->points)
     return FG_STATUS_OK;
-  fg__grib_unusable(grid, "its %zu rows do not have its %zu points together",
-                   a->rows, grid->points);
+  fg__grib_unusable(grid, "its %zu rows do not have its %zu points together", a->rows,
+                    grid->points);
   return FG_STATUS_OK;
 }
 
@@ -335,9 +333,8 @@ static fg_status find_reduced(fg__grib_grid *grid, const fg__grib_file *file,
       grid->alternates || !isfinite(a->numbers.first[0]) ||
       !isfinite(a->numbers.last[0]) || fabs(a->numbers.first[0]) > 720.0 ||
       fabs(a->numbers.last[0]) > 720.0) {
-    fg__grib_unusable(grid,
-                     "a reduced grid of %zu rows, of which %zu say their points",
-                     grid->size[1], a->rows);
+    fg__grib_unusable(grid, "a reduced grid of %zu rows, of which %zu say their points",
+                      grid->size[1], a->rows);
     return FG_STATUS_OK;
   }
   fg_status status = fill_latitudes(grid, file, field, &a->numbers);
@@ -370,10 +367,10 @@ static bool find_layout(fg__grib_grid *grid)
     }
   if (strcmp(grid->type, "sh") == 0)
     fg__grib_unusable(grid, "it has spherical harmonics ('sh') and no grid, as "
-                                     "cdo sp2gp would make of them");
+                            "cdo sp2gp would make of them");
   else
     fg__grib_unusable(grid, "its grid is of a type that is not known here, '%s'",
-                     grid->type);
+                      grid->type);
   return false;
 }
 
@@ -382,20 +379,17 @@ static void check_counts(fg__grib_grid *grid, const fg__grib_field *field,
 {
   const size_t most = POINTS + POINTS_A_BYTE * field->size;
   if (grid->points == 0 || grid->points > most)
-    fg__grib_unusable(grid,
-                     "it has %g points, and a message of %zu bytes at most %zu",
-                     n->points, field->size, most);
+    fg__grib_unusable(grid, "it has %g points, and a message of %zu bytes at most %zu",
+                      n->points, field->size, most);
   else if (grid->size[1] < 2 || (grid->layout != FG__GRIB_REDUCED && grid->size[0] < 2))
-    fg__grib_unusable(grid, "it has %g columns and %g rows", n->columns,
-                     n->rows);
+    fg__grib_unusable(grid, "it has %g columns and %g rows", n->columns, n->rows);
   else if (grid->layout != FG__GRIB_REDUCED &&
            grid->size[0] * grid->size[1] != grid->points)
     fg__grib_unusable(grid, "%zu columns and %zu rows are not its %zu points",
-                     grid->size[0], grid->size[1], grid->points);
+                      grid->size[0], grid->size[1], grid->points);
   if (grid->rotated &&
       !(fabs(n->pole[1]) <= 90.0 + ROUNDING && fabs(n->pole[0]) <= 720.0))
-    fg__grib_unusable(grid, "its southern pole is at %g, %g", n->pole[0],
-                     n->pole[1]);
+    fg__grib_unusable(grid, "its southern pole is at %g, %g", n->pole[0], n->pole[1]);
 }
 
 static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
@@ -439,9 +433,9 @@ fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
   if (status == FG_STATUS_OK && a.exhausted)
     status = fg__fail_memory(file->context, "rows", a.rows * sizeof *a.row);
   if (status == FG_STATUS_OK && a.error)
-    status = fg__fail(
-        file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu does not say its grid: %s",
-        file->path, field->number, codes_get_error_message(a.error));
+    status = fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                      "%s: message %zu does not say its grid: %s", file->path,
+                      field->number, codes_get_error_message(a.error));
   if (status == FG_STATUS_OK)
     status = find(out, file, field, &a);
   free(a.row);

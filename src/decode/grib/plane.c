@@ -103,10 +103,9 @@ static bool check_numbers(fg__grib_grid *grid, const fg__grib_numbers *n, double
   const bool lambert = strcmp(grid->type, "lambert") == 0;
   if (!(n->spacing[0] > 0.0 && n->spacing[1] > 0.0))
     fg__grib_unusable(grid, "its points lie %g and %g m apart", n->spacing[0],
-                     n->spacing[1]);
+                      n->spacing[1]);
   else if (!(major >= 1e6 && major <= 1e8 && minor >= 0.9 * major && minor <= major))
-    fg__grib_unusable(grid, "the Earth has half-axes of %g and %g m there",
-                     major, minor);
+    fg__grib_unusable(grid, "the Earth has half-axes of %g and %g m there", major, minor);
   else if (!are_finite(numbers, 4) || fabs(n->first[1]) > 90.0 ||
            fabs(n->parallel) > 90.0 || fabs(n->first[0]) > 720.0 ||
            fabs(n->meridian) > 720.0 ||
@@ -114,7 +113,7 @@ static bool check_numbers(fg__grib_grid *grid, const fg__grib_numbers *n, double
     fg__grib_unusable(grid, "its projection is not said in full");
   else if (strcmp(grid->type, "mercator") == 0 && n->meridian != 0.0)
     fg__grib_unusable(grid, "its projection is Mercator's turned by %g degrees",
-                     n->meridian);
+                      n->meridian);
   return !grid->unusable[0];
 }
 
@@ -149,9 +148,8 @@ fg_status fg__grib_plane(fg__grib_grid *grid, fg_context *context,
   make_projection(p, grid, n, major, minor);
   forward(p, n->first[0], n->first[1], &first[0], &first[1]);
   if (!are_finite(first, 2) || !(fabs(first[0]) < 1e9 && fabs(first[1]) < 1e9)) {
-    fg__grib_unusable(grid,
-                     "its projection does not show its first point, %g, %g", n->first[0],
-                     n->first[1]);
+    fg__grib_unusable(grid, "its projection does not show its first point, %g, %g",
+                      n->first[0], n->first[1]);
     return FG_STATUS_OK;
   }
   for (int k = 0; k < 2; ++k) {

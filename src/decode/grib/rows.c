@@ -109,8 +109,8 @@ static size_t steps_in(const fg__grib_grid *grid, size_t j)
 static void join_equal_rows(const building *b, size_t j)
 {
   for (size_t i = 0; i < steps_in(b->grid, j); ++i)
-    add_face(b->mesh, point_of(b, j, i), point_of(b, j, i + 1),
-             point_of(b, j + 1, i + 1), (int)point_of(b, j + 1, i));
+    add_face(b->mesh, point_of(b, j, i), point_of(b, j, i + 1), point_of(b, j + 1, i + 1),
+             (int)point_of(b, j + 1, i));
 }
 
 /* Triangles between rows of different lengths: each takes the next point to the east. */

@@ -51,8 +51,8 @@ static fg_status fail_length(const scan *s, uint64_t length)
 static fg_status fail_section(const scan *s, int n, uint64_t length)
 {
   return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
-                  "%s: section %d of message %zu has a length of %llu bytes", s->file->path, n,
-                  s->number, (unsigned long long)length);
+                  "%s: section %d of message %zu has a length of %llu bytes",
+                  s->file->path, n, s->number, (unsigned long long)length);
 }
 
 static fg_status add_field(scan *s, const fg__grib_field *field)
@@ -140,7 +140,8 @@ static fg_status scan_second_edition(scan *s, fg__grib_field *field)
   }
   if (status == FG_STATUS_OK && before != 7)
     return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu ends with section %d", s->file->path, s->number, before);
+                    "%s: message %zu ends with section %d", s->file->path, s->number,
+                    before);
   for (size_t i = first; i < s->file->fields; ++i)
     s->file->field[i].alone = s->file->fields == first + 1;
   return status;
@@ -169,14 +170,12 @@ static fg_status scan_message(scan *s)
 {
   const unsigned char *at = s->bytes + s->at;
   const size_t left = s->size - s->at;
-  fg__grib_field field = {.message = at,
-                          .number = s->number,
-                          .edition = at[7]};
+  fg__grib_field field = {.message = at, .number = s->number, .edition = at[7]};
   const size_t least = field.edition == 1 ? SHORTEST_1 : SHORTEST_2;
   if (field.edition != 1 && field.edition != 2)
     return fg__fail(s->file->context, FG_STATUS_UNSUPPORTED,
-                    "%s: message %zu is of GRIB's edition %d; 1 and 2 are known", s->file->path,
-                    s->number, field.edition);
+                    "%s: message %zu is of GRIB's edition %d; 1 and 2 are known",
+                    s->file->path, s->number, field.edition);
   if (left < least)
     return fail_length(s, least);
   const uint64_t length =

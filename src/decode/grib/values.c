@@ -118,8 +118,8 @@ static size_t place_of(const fg__grib_grid *grid, size_t n)
 static fg_status fail(const fg__grib_file *file, const fg__grib_field *field,
                       const char *reason)
 {
-  return fg__fail(file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu: %s",
-                  file->path, field->number, reason);
+  return fg__fail(file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu: %s", file->path,
+                  field->number, reason);
 }
 
 static fg_status unpack_all(double *value, const fg__grib_file *file,
@@ -135,8 +135,8 @@ static fg_status unpack_all(double *value, const fg__grib_file *file,
     return fail(file, field, codes_get_error_message(u.error));
   if (u.found != u.count)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu has %zu values, its grid %zu points",
-                    file->path, field->number, u.found, u.count);
+                    "%s: message %zu has %zu values, its grid %zu points", file->path,
+                    field->number, u.found, u.count);
   return FG_STATUS_OK;
 }
 

@@ -26,9 +26,10 @@ struct fg__curvilinear {
                           centres are  mid-points of a component's samples */
   fg__curvilinear_part part[2]; /* the components */
   size_t size[2];               /* centres along i and j */
-  int shift[2]; /* component k along its own direction: sample 0 lies on centre 0,
-                   half a cell before (-1) or after it (1) */
-  bool apart;   /* components lie elsewhere than on the faces of one grid */
+  size_t left_out; /* cells between them that lie over gaps, once it is read */
+  int shift[2];    /* component k along its own direction: sample 0 lies on centre 0,
+                      half a cell before (-1) or after it (1) */
+  bool apart;      /* components lie elsewhere than on the faces of one grid */
   fg__frame_turn turn;
   fg__polar polar; /* components are a speed and a direction */
   const fg__variable *angle[2];
@@ -59,8 +60,10 @@ fg_status fg__staggered_find(fg__grid *grid, const fg__dataset *data,
 bool fg__frame_find(fg__curvilinear *mesh, const fg__dataset *data, const fg__pair *pair,
                     fg_frame wanted);
 
-/* Whether a component's names say that it is along east or north. */
-bool fg__says_east(const fg__variable *u);
+/* Whether components are known to be along the grid: as asked, by their standard names,
+ * or because the file has the grid's angle. */
+bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,
+                       const fg__pair *pair, fg_frame wanted);
 
 /* positions.c. Longitudes and latitudes of a part's samples, in degrees. To be freed,
  * also after a failure. */

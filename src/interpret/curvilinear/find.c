@@ -1,6 +1,7 @@
 /* Finds the positions of a pair's points that do not lie on two axes. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
+#include "terms/frame.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -173,12 +174,10 @@ bool fg__curvilinear_parts(fg__curvilinear *mesh, const fg__dataset *data,
  * values. */
 static void find_mask(fg__curvilinear *mesh, const fg__dataset *data)
 {
-  static const char *const known[] = {"wetdry_mask_rho", "mask_rho", "tmask", "maskC",
-                                      "hFacC",           "wet",      "wet_c"};
   const fg__curvilinear_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
-  for (size_t n = 0; n < sizeof known / sizeof *known && !mesh->mask; ++n) {
-    const fg__variable *v = fg__dataset_find(data, known[n]);
-    if (v && strcmp(v->plain_name, known[n]) == 0 &&
+  for (int n = 0; fg__mask_names[n] && !mesh->mask; ++n) {
+    const fg__variable *v = fg__dataset_find(data, fg__mask_names[n]);
+    if (v && strcmp(v->plain_name, fg__mask_names[n]) == 0 &&
         fg__lies_on(data, v, &at->grid, at->variable))
       mesh->mask = v;
   }

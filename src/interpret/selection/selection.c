@@ -2,8 +2,8 @@
 #include "base/context.h"
 #include "base/memory.h"
 #include "file/number_text.h"
-#include "interpret/selection/axis_units.h"
-#include "interpret/time_words.h"
+#include "terms/dates.h"
+#include "terms/units.h"
 
 #include <ctype.h>
 #include <math.h>

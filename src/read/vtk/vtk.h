@@ -272,6 +272,7 @@ typedef struct fg__vtk_vector {
   int names;
   int components;
   fg__vtk_place place;
+  int rank; /* the smallest is the best */
   const char *found_by;
   const char *units;
 } fg__vtk_vector;

@@ -3,9 +3,11 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "sample/curvilinear/points.h"
+#include "sample/gaps.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Points nearer than this fraction of a step coincide. */
 static const double SAME_PLACE = 0.1;
@@ -79,9 +81,56 @@ static void put(int *corner, size_t n, size_t a, size_t b, size_t c, size_t d)
   corner[4 * n + 3] = (int)d;
 }
 
-fg_status fg__cells_make(int **corner, size_t *count, const fg__dataset *data,
-                         const fg__positions *at, const size_t size[2], size_t repeated,
-                         bool closed)
+/* Marks cells that lie over gaps along one direction: `along` i (0) or j (1). */
+static void mark_gaps(bool *over, const fg__positions *at, const size_t size[2],
+                      size_t columns, int along, double *length, bool *gap)
+{
+  const size_t n = along == 0 ? columns : size[1], lines = along == 0 ? size[1] : columns;
+  const size_t step = along == 0 ? 1 : size[0], across = along == 0 ? size[0] : 1;
+  for (size_t line = 0; line < lines; ++line) {
+    for (size_t i = 0; i + 1 < n; ++i)
+      length[i] = distance(at, line * across + i * step, line * across + (i + 1) * step);
+    if (fg__gaps_find(gap, length, n - 1) == 0)
+      continue;
+    for (size_t i = 0; i + 1 < n; ++i) {
+      const size_t cell = line * across + i * step;
+      over[cell] = over[cell] || gap[i];
+      if (line > 0)
+        over[cell - across] = over[cell - across] || gap[i];
+    }
+  }
+}
+
+/* Takes out the cells over gaps; *left_out: how many. */
+static fg_status leave_out_gaps(int *corner, size_t *count, size_t *left_out,
+                                const fg__dataset *data, const fg__positions *at,
+                                const size_t size[2], size_t columns)
+{
+  const size_t longest = size[0] > size[1] ? size[0] : size[1];
+  bool *over = fg__allocate(size[0] * size[1], sizeof *over);
+  bool *gap = fg__allocate(longest, sizeof *gap);
+  double *length = fg__allocate(longest, sizeof *length);
+  fg_status status = FG_STATUS_OK;
+  if (!over || !gap || !length)
+    status = fg__fail_memory(data->context, "gaps", size[0] * size[1]);
+  for (int along = 0; along < 2 && status == FG_STATUS_OK; ++along)
+    mark_gaps(over, at, size, columns, along, length, gap);
+  size_t kept = 0;
+  for (size_t n = 0; n < *count && status == FG_STATUS_OK; ++n)
+    if (!over[corner[4 * n]])
+      memmove(corner + 4 * kept++, corner + 4 * n, 4 * sizeof *corner);
+  *left_out = *count - kept;
+  if (status == FG_STATUS_OK)
+    *count = kept;
+  free(over);
+  free(gap);
+  free(length);
+  return status;
+}
+
+fg_status fg__cells_make(int **corner, size_t *count, size_t *left_out,
+                         const fg__dataset *data, const fg__positions *at,
+                         const size_t size[2], size_t repeated, bool closed)
 {
   const size_t columns = size[0] - repeated, across = closed ? columns : columns - 1;
   const bool folded = is_folded(at, size, columns);
@@ -100,5 +149,5 @@ fg_status fg__cells_make(int **corner, size_t *count, const fg__dataset *data,
     put(*corner, n++, last + i, last + i + 1, last + columns - 2 - i,
         last + columns - 1 - i);
   *count = n;
-  return FG_STATUS_OK;
+  return leave_out_gaps(*corner, count, left_out, data, at, size, columns);
 }

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "field/refused.h"
 #include "sample/curvilinear/points.h"
+#include "sample/missing.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -326,12 +327,21 @@ static fg_status fill(centre_values *all, fg__curvilinear *mesh, const fg__datas
   free(part[0]);
   free(part[1]);
   if (status == FG_STATUS_OK)
-    fg__polar_turn_all(all->component, all->count, &mesh->polar);
-  if (status == FG_STATUS_OK)
     status = read_mask(all, data, mask, time, level);
   for (size_t n = 0; n < all->count && status == FG_STATUS_OK && all->wet; ++n)
     if (!all->wet[n])
       all->component[0][n] = NAN;
+  const fg__raw_samples raw = {
+      .path = data->file[0].path,
+      .name = {mesh->part[0].variable->plain_name, mesh->part[1].variable->plain_name},
+      .component = {all->component[0], all->component[1]},
+      .components = 2,
+      .count = all->count};
+  if (status == FG_STATUS_OK)
+    status = fg__missing_settle(data->context, &raw, &data->missing);
+  if (status == FG_STATUS_OK)
+    status = fg__polar_turn_all(data->context, all->component, all->count, &mesh->polar,
+                                data->file[0].path, mesh->part[1].variable->plain_name);
   if (status == FG_STATUS_OK)
     status = fg__refuse_missing_codes(data->context, data->file[0].path, all->component,
                                       all->count);
@@ -349,8 +359,8 @@ fg_status fg__curvilinear_read(fg__sphere_cells *out, fg__curvilinear *mesh,
   if (status == FG_STATUS_OK)
     status = fill(&all, mesh, data, time, level, mask);
   if (status == FG_STATUS_OK)
-    status = fg__cells_make(&out->corner, &out->count, data, &all.at, mesh->size,
-                            all.repeated, all.closed);
+    status = fg__cells_make(&out->corner, &out->count, &mesh->left_out, data, &all.at,
+                            mesh->size, all.repeated, all.closed);
   if (status == FG_STATUS_OK) {
     out->points = all.count;
     out->longitude = all.at.longitude;

@@ -5,7 +5,7 @@
 #include <math.h>
 
 fg_status fg__sphere_read(fg__sphere **out, const fg__dataset *data, const fg__pair *pair,
-                          const fg__grid *grid, const fg_read_options *options)
+                          fg__grid *grid, const fg_read_options *options)
 {
   fg__vector_words words;
   fg__sphere_cells cells = {0};
@@ -16,20 +16,27 @@ fg_status fg__sphere_read(fg__sphere **out, const fg__dataset *data, const fg__p
   if (status != FG_STATUS_OK)
     return status;
   fg__model_plane(grid->mesh, pair->component[0], &cells);
+  if (grid->mesh->left_out > 0)
+    fg__doubt(
+        grid->doubts,
+        "%zu of its %zu cells are missing: they lie over gaps more than 4.5 times as "
+        "wide as the cells beside",
+        grid->mesh->left_out, cells.count + grid->mesh->left_out);
   const fg_field_arrays of_field = {
       .velocity_name = {fg__component_name(pair, 0), fg__component_name(pair, 1)},
       .velocity_units = words.units,
       .title = words.title,
       .time = words.time[0] ? words.time : NULL,
       .level = words.level[0] ? words.level : NULL,
-      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL};
+      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL,
+      .doubts = grid->doubts[0] ? grid->doubts : NULL};
   cells.words = &of_field;
   cells.threads = options->map ? options->map->threads : 0;
   return fg__sphere_of_cells(out, data->context, &cells);
 }
 
 fg_status fg__curvilinear_describe(fg_inventory_vector *vector, const fg__dataset *data,
-                                   const fg__pair *pair, const fg__grid *grid)
+                                   const fg__pair *pair, fg__grid *grid)
 {
   static const fg_read_options first = {0};
   fg__sphere *sphere = NULL;

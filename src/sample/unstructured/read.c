@@ -5,6 +5,7 @@
 #include "map/map.h"
 #include "sample/cells/set.h"
 #include "sample/globe.h"
+#include "sample/missing.h"
 #include "sample/points/points.h"
 #include "sample/unstructured/mesh.h"
 
@@ -37,7 +38,8 @@ static fg_status find_words(request *r)
       .velocity_units = r->words.units,
       .title = r->words.title,
       .time = r->words.time[0] ? r->words.time : NULL,
-      .level = r->words.level[0] ? r->words.level : NULL};
+      .level = r->words.level[0] ? r->words.level : NULL,
+      .doubts = r->grid->doubts[0] ? r->grid->doubts : NULL};
   return status;
 }
 
@@ -119,11 +121,21 @@ static fg_status read_vectors(float *velocity[2], const request *r)
     status = read_values(&velocity[1], r, r->pair->component[1],
                          &grid->unstructured->of_v, false);
   if (status == FG_STATUS_OK)
-    fg__polar_turn_all(velocity, grid->samples, &r->pair->polar);
+    status = apply_mask(velocity[0], r);
+  const fg__raw_samples raw = {
+      .path = r->data->file[0].path,
+      .name = {r->pair->component[0]->plain_name, r->pair->component[1]->plain_name},
+      .component = {velocity[0], velocity[1]},
+      .components = 2,
+      .count = grid->samples};
+  if (status == FG_STATUS_OK)
+    status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__polar_turn_all(r->data->context, velocity, grid->samples, &r->pair->polar,
+                           r->data->file[0].path, r->pair->component[1]->plain_name);
   if (status == FG_STATUS_OK)
     status = turn_vectors(velocity, r);
-  if (status == FG_STATUS_OK)
-    status = apply_mask(velocity[0], r);
   if (status != FG_STATUS_OK || r->counts_only)
     return status;
   return fg__refuse_missing_codes(r->data->context, r->data->file[0].path, velocity,

@@ -1,28 +1,33 @@
 /* Dates that files have as text, one for each index of a dimension: Times of WRF,
- * "2010-07-16_12:00:00", and of FVCOM, xtime of MPAS. */
+ * "2010-07-16_12:00:00", and of FVCOM, xtime of MPAS, time as strings. */
 #include "base/memory.h"
-#include "interpret/time/dates.h"
+#include "interpret/interpret.h"
+#include "terms/dates.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* A date has 19 characters; more may follow. */
 enum { MOST_LETTERS = 64, DATE_BYTES = 40 };
 
+static bool has_texts(const fg__dataset *data, const fg__variable *v)
+{
+  return v->type == FG__TYPE_LETTERS
+             ? v->rank == 2 && data->dimensions[v->dimension[1]].length <= MOST_LETTERS
+             : v->type == FG__TYPE_TEXTS && v->rank == 1;
+}
+
 const fg__variable *fg__date_texts(const fg__dataset *data, int dimension)
 {
-  static const char *const names[] = {"Times", "xtime"};
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
-    if (v->type != FG__TYPE_LETTERS || v->rank != 2 || v->dimension[0] != dimension ||
-        data->dimensions[v->dimension[1]].length > MOST_LETTERS)
-      continue;
-    for (size_t n = 0; n < sizeof names / sizeof *names; ++n)
-      if (strcasecmp(v->plain_name, names[n]) == 0)
-        return v;
+    const fg__term term = fg__term_of(v);
+    if (has_texts(data, v) && v->dimension[0] == dimension &&
+        (fg__role_of_attributes(&term, "", false) == FG__ROLE_TIME ||
+         fg__role_of_name(v->plain_name) == FG__ROLE_TIME))
+      return v;
   }
   return NULL;
 }

@@ -1,6 +1,6 @@
 /* Days and dates of each calendar. */
 #include "base/context_test.h"
-#include "interpret/time/calendar.h"
+#include "terms/calendar.h"
 
 enum { CALENDARS = FG__CALENDAR_360_DAYS + 1 };
 

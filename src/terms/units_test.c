@@ -4,7 +4,8 @@
 #include <time.h>
 
 #include "base/context_test.h"
-#include "interpret/time/dates.h"
+#include "terms/dates.h"
+#include "terms/units.h"
 
 static void units_are_classified_and_written_shortly(void **state)
 {
@@ -52,8 +53,10 @@ static void units_are_classified_and_written_shortly(void **state)
       {"day as %Y%m%d.%f", FG__QUANTITY_DATE, "day as %Y%m%d.%f"},
       {"", FG__QUANTITY_UNKNOWN, ""},
       {"1", FG__QUANTITY_UNKNOWN, "1"},
-      {"degrees_west", FG__QUANTITY_UNKNOWN, "degrees_west"},
-      {"days", FG__QUANTITY_UNKNOWN, "days"},
+      {"degrees_west", FG__QUANTITY_DEGREES_EAST, "°W"},
+      {"degree_S", FG__QUANTITY_DEGREES_NORTH, "°S"},
+      {"days", FG__QUANTITY_TIME, "days"},
+      {"radians", FG__QUANTITY_RADIANS, "radians"},
       {"s-1", FG__QUANTITY_UNKNOWN, "s-1"},
       {"s/m", FG__QUANTITY_UNKNOWN, "s/m"},
       {"m2 s-2", FG__QUANTITY_UNKNOWN, "m2 s-2"},
@@ -69,17 +72,49 @@ static void units_are_classified_and_written_shortly(void **state)
       {"\xff\xfe", FG__QUANTITY_UNKNOWN, "\xff\xfe"},
   };
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char label[FG__TEXT_BYTES];
+    char label[FG__UNIT_BYTES];
     const fg__quantity quantity = fg__units_read(cases[i].units, label, sizeof label);
     if (quantity != cases[i].quantity || strcmp(label, cases[i].label) != 0)
       fail_msg("\"%s\" became %d \"%s\"", cases[i].units, (int)quantity, label);
   }
 }
 
+/* A unit's size in another, whichever way it is written; 0: they measure different
+ * things.
+ */
+static void units_have_factors(void **state)
+{
+  static const struct {
+    const char *from, *to;
+    double factor;
+    bool differ;
+  } cases[] = {
+      {"hPa", "bar", 1e-3, true},
+      {"hours", "d", 1.0 / 24.0, true},
+      {"", "m", 1.0, false},
+      {"weird", "WEIRD", 1.0, false},
+      {"weird", "m", 0.0, false},
+      {"m", "hPa", 0.0, true},
+      {"m s-1", "meters per second", 1.0, false},
+      {"m/s", "cm/s", 100.0, true},
+      {"knots", "m/s", 1852.0 / 3600.0, true},
+      {"km/h", "m s**-1", 1.0 / 3.6, true},
+      {"degrees_east", "degrees_west", -1.0, true},
+      {"deg", "rad", 0.0, true},
+  };
+  (void)state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const double factor = fg__unit_factor(cases[n].from, cases[n].to);
+    if (!(fabs(factor - cases[n].factor) <= 1e-12 * fabs(factor)) ||
+        fg__units_differ(cases[n].from, cases[n].to) != cases[n].differ)
+      fail_msg("%s in %s is %g", cases[n].from, cases[n].to, factor);
+  }
+}
+
 static void assert_date(double value, const char *units, const char *calendar,
                         const char *wanted)
 {
-  char out[FG__TEXT_BYTES] = "";
+  char out[FG__UNIT_BYTES] = "";
   const bool known = fg__date_of_number(value, units, calendar, out, sizeof out);
   if (known != (wanted != NULL) || (wanted && strcmp(out, wanted) != 0))
     fail_msg("%g %s (%s) became \"%s\"", value, units, calendar, out);
@@ -128,6 +163,9 @@ static void dates_follow_the_calendar(void **state)
   assert_date(1.5, "months since 1980-01-01", "", "1980-02-15 12:00");
   assert_date(-1.0, "month since 1980-01-16 12:00", "noleap", "1979-12-16 12:00");
   assert_date(0.5, "months since 1980-02-01", "360_day", "1980-02-16");
+  assert_date(722.5, "months since 1960-01-01", "360", "2020-03-16");
+  assert_date(1.0, "days since 1900-02-28", "JULIAN", "1900-02-29");
+  assert_date(17067072.0, "hours since 1-1-1 00:00:0.0", "", "1948-01-01");
   assert_date(1.0, "months since 2001-01-31", "",
               "2001-03-03"); /* past the month's end */
   assert_date(25.0, "years since 1975-03-01", "", "2000-03-01");
@@ -175,6 +213,49 @@ static void what_is_no_date_is_left_alone(void **state)
   assert_date(-1e300, "milliseconds since 1970-01-01", "360_day", NULL);
 }
 
+/* Texts of files, and seconds from 1970 on; NULL: no date. */
+static void texts_are_dates(void **state)
+{
+  static const char *const texts[][2] = {
+      {"2010-07-15_12:00:00", "2010-07-15 12:00"},
+      {"2010-07-16T00:00:00.000000", "2010-07-16"},
+      {"2010-07-16 00:00:30.5Z", "2010-07-16 00:00:30"},
+      {"2001-01-16T12:00", "2001-01-16 12:00"},
+      {"2001-01-16", "2001-01-16"},
+      {"-0044-03-15  ", "-044-03-15"},
+      {"2001-01", NULL},
+      {"2010-13-15_12:00:00", NULL},
+      {"2010-07-32_12:00:00", NULL},
+      {"2010-07-15_24:00:00", NULL},
+      {"2010-07-15 12:00:00 noon", NULL},
+      {"yesterday", NULL},
+      {"", NULL},
+  };
+  static const struct {
+    double seconds;
+    const char *wanted;
+  } numbers[] = {{0.0, "1970-01-01"},
+                 {-60.0, "1969-12-31 23:59"},
+                 {951782400.5, "2000-02-29 00:00:00.500"},
+                 {951782460.25, "2000-02-29 00:01:00.250"},
+                 {-1.0, "1969-12-31 23:59:59"},
+                 {1e15, NULL},
+                 {(double)NAN, NULL}};
+  char out[FG__UNIT_BYTES];
+  (void)state;
+  for (size_t n = 0; n < sizeof texts / sizeof *texts; ++n) {
+    const bool known = fg__date_of_text(texts[n][0], out, sizeof out);
+    if (known != (texts[n][1] != NULL) || (known && strcmp(out, texts[n][1]) != 0))
+      fail_msg("%s became \"%s\"", texts[n][0], out);
+  }
+  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; ++n) {
+    const bool known = fg__date_of_seconds(numbers[n].seconds, out, sizeof out);
+    if (known != (numbers[n].wanted != NULL) ||
+        (known && strcmp(out, numbers[n].wanted) != 0))
+      fail_msg("%g became \"%s\"", numbers[n].seconds, out);
+  }
+}
+
 static void durations_have_parts(void **state)
 {
   (void)state;
@@ -192,7 +273,7 @@ static void durations_have_parts(void **state)
                {1e300, "s", NULL},
                {(double)NAN, "s", NULL}};
   for (size_t n = 0; n < sizeof times / sizeof *times; ++n) {
-    char out[FG__TEXT_BYTES] = "";
+    char out[FG__UNIT_BYTES] = "";
     const bool known = fg__duration(times[n].value, times[n].units, out, sizeof out);
     if (known != (times[n].wanted != NULL) ||
         (known && strcmp(out, times[n].wanted) != 0))
@@ -204,10 +285,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(units_are_classified_and_written_shortly),
+      cmocka_unit_test(units_have_factors),
       cmocka_unit_test(dates_follow_the_calendar),
+      cmocka_unit_test(texts_are_dates),
       cmocka_unit_test(dates_agree_with_the_c_library),
       cmocka_unit_test(what_is_no_date_is_left_alone),
       cmocka_unit_test(durations_have_parts),
   };
-  return cmocka_run_group_tests_name("read/netcdf/units", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("terms/units", tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
-#include "interpret/time/calendar.h"
+#include "terms/calendar.h"
 
-#include <stddef.h>
-#include <strings.h>
+#include "terms/text.h"
+
+#include <string.h>
 
 /* The first Gregorian day of the standard calendar, which is 5 October in the Julian
  * one. */
@@ -10,24 +11,17 @@ static const fg__date REFORM_JULIAN = {1582, 10, 5};
 
 bool fg__calendar_find(fg__calendar *out, const char *name)
 {
-  static const struct {
-    const char *name;
-    fg__calendar calendar;
-  } known[] = {
-      {"", FG__CALENDAR_STANDARD},
-      {"standard", FG__CALENDAR_STANDARD},
-      {"gregorian", FG__CALENDAR_STANDARD},
-      {"proleptic_gregorian", FG__CALENDAR_GREGORIAN},
-      {"julian", FG__CALENDAR_JULIAN},
-      {"noleap", FG__CALENDAR_NOLEAP},
-      {"365_day", FG__CALENDAR_NOLEAP},
-      {"all_leap", FG__CALENDAR_ALL_LEAP},
-      {"366_day", FG__CALENDAR_ALL_LEAP},
-      {"360_day", FG__CALENDAR_360_DAYS},
+  static const char *const names[] = {
+      [FG__CALENDAR_STANDARD] = "|standard|gregorian",
+      [FG__CALENDAR_GREGORIAN] = "proleptic_gregorian",
+      [FG__CALENDAR_JULIAN] = "julian",
+      [FG__CALENDAR_NOLEAP] = "noleap|365_day|365",
+      [FG__CALENDAR_ALL_LEAP] = "all_leap|366_day|366",
+      [FG__CALENDAR_360_DAYS] = "360_day|360", /* the second of the IRI Data Library */
   };
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcasecmp(known[i].name, name) == 0) {
-      *out = known[i].calendar;
+  for (int k = 0; k < (int)(sizeof names / sizeof *names); ++k)
+    if (fg__is_one_of(names[k], name, strlen(name))) {
+      *out = (fg__calendar)k;
       return true;
     }
   return false;
