@@ -66,11 +66,11 @@ typedef struct fg__variable {
                   counted in `rank`; 0: it is a whole variable */
   fg__attribute *attribute;
   size_t attributes;
-  double fill;     /* of samples that were never written; NaN: there is none */
-  bool in_one_run; /* its samples lie in the file one after the other */
-  bool fits_file;  /* the decoder has compared its size with the file's */
+  double fill;          /* of samples that were never written; NaN: there is none */
+  bool in_one_run;      /* its samples lie in the file one after the other */
+  bool fits_file;       /* the decoder has compared its size with the file's */
   const char *unusable; /* why it cannot be read, the decoder's; NULL: it can */
-  int place, id;   /* the decoder's own */
+  int place, id;        /* the decoder's own */
   /* by interpret/, once a dataset is open */
   fg__role geographic; /* longitude (X), latitude (Y), or neither */
 } fg__variable;

@@ -48,8 +48,7 @@ static void list_pairs(const candidates *all, const int *dimension, char *out,
 }
 
 /* The only variable that GRIB calls so, as "10u" is called u10 too; NULL: none. */
-static const fg__variable *find_alias(const fg__dataset *data, const char *name,
-                                      int file)
+static const fg__variable *find_alias(const fg__dataset *data, const char *name, int file)
 {
   static const char *const words[] = {"GRIB_shortName", "GRIB_cfVarName"};
   const fg__variable *found = NULL;
@@ -57,7 +56,8 @@ static const fg__variable *find_alias(const fg__dataset *data, const char *name,
   for (size_t i = 0; i < data->variable_count; ++i)
     for (int k = 0; k < 2; ++k) {
       const fg__variable *v = &data->variables[i];
-      if (v->file != file || !fg__attribute_text(v, words[k], text, sizeof text) || strcmp(text, name) != 0)
+      if (v->file != file || !fg__attribute_text(v, words[k], text, sizeof text) ||
+          strcmp(text, name) != 0)
         continue;
       if (found && found != v)
         return NULL;

@@ -42,9 +42,8 @@ void fg__check_variable(fg__grid *grid, const fg__variable *v)
 
 static bool fits_file(const fg__dataset *data, const fg__variable *v, size_t samples)
 {
-  return v->fits_file ||
-         samples / LARGEST_COMPRESSION * fg__type_bytes(v->type) <=
-         data->file[v->file].size;
+  return v->fits_file || samples / LARGEST_COMPRESSION * fg__type_bytes(v->type) <=
+                             data->file[v->file].size;
 }
 
 /* Whether numbers differ by no more than rounding; what is none in both is the same.

@@ -22,7 +22,9 @@ fg__term fg__term_of(const fg__variable *v)
                     .long_name = text_of(v, "long_name"),
                     .units = text_of(v, "units"),
                     .file = v->file,
-                    .frame = !flagged ? 0 : relative > 0.0 ? -1 : 1};
+                    .frame = !flagged         ? 0
+                             : relative > 0.0 ? -1
+                                              : 1};
 }
 
 typedef struct candidates {

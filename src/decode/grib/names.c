@@ -11,6 +11,8 @@ static const char *const TITLES[][2] = {
     {"V component of wind", "northward_wind"},
     {"V-component of wind", "northward_wind"},
     {"V wind component", "northward_wind"},
+    {"U-component of current", "eastward_sea_water_velocity"},
+    {"V-component of current", "northward_sea_water_velocity"},
     {"wind speed", "wind_speed"},
     {"wind direction", "wind_from_direction"},
     {"Significant height of combined wind waves and swell",
@@ -35,8 +37,11 @@ static const char *without_height(const char *title)
 const char *fg__grib_standard_name(const char *title)
 {
   title = without_height(title);
+  size_t length = strlen(title);
+  while (length > 0 && title[length - 1] == ' ')
+    --length;
   for (size_t i = 0; i < sizeof TITLES / sizeof *TITLES; ++i)
-    if (strcasecmp(title, TITLES[i][0]) == 0)
+    if (strlen(TITLES[i][0]) == length && strncasecmp(title, TITLES[i][0], length) == 0)
       return TITLES[i][1];
   return "";
 }

@@ -318,7 +318,8 @@ static bool is_numbers(const fg__variable *v)
 fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
                                 const fg__pair *pair, const fg_read_options *options)
 {
-  fg__mesh_search search = {.data = data, .u = pair->component[0]};
+  fg__mesh_search search = {
+      .data = data, .u = pair->component[0], .polar = pair->polar.sense != 0};
   if (!is_numbers(pair->component[0]) || !is_numbers(pair->component[1]))
     return FG_STATUS_OK;
   fg__unstructured *mesh = fg__allocate(1, sizeof *mesh);

@@ -72,6 +72,7 @@ typedef struct fg__mesh_search {
   int k;
   char lacks[2 * FG__TEXT_BYTES];
   bool elsewhere; /* what is lacking may be in another file */
+  bool polar;     /* they are lengths and directions, from north on any mesh */
 } fg__mesh_search;
 
 bool fg__find_ugrid(fg__unstructured *out, fg__mesh_search *search);

@@ -301,6 +301,50 @@ static void times_and_levels(void **state)
   fg_field_destroy(field);
 }
 
+/* Two forecasts of one time are told apart by when they began. */
+static void forecasts_of_one_time(void **state)
+{
+  static const char *const starts[] = {"dataDate=20140131,endStep=36",
+                                       "dataDate=20140201,endStep=12"};
+  grib_file *f = *state;
+  fg_inventory *inventory = NULL;
+  for (int k = 1; k >= 0; --k)
+    grib_add(f, "regular_ll_pl_grib2", starts[k], 0, "bitsPerValue=16", WIND_U, WIND_V,
+             NULL);
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(vector->times, 2);
+  assert_string_equal(vector->time_value[0].words, "2014-02-02 from 2014-01-31 12:00");
+  assert_string_equal(vector->time_value[1].words, "2014-02-02 from 2014-02-01 12:00");
+  fg_inventory_destroy(inventory);
+  fg_field *field = grib_read(f, &(fg_read_options){.time = 1});
+  assert_string_equal(fg_field_contents(field)->time, "2014-02-02 from 2014-02-01 12:00");
+  fg_field_destroy(field);
+}
+
+/* Members of an ensemble are along a dimension of their own. */
+static void one_member_is_read(void **state)
+{
+  grib_file *f = *state;
+  for (int k = 1; k <= 3; ++k) {
+    char member[128];
+    snprintf(member, sizeof member,
+             "productDefinitionTemplateNumber=1,numberOfForecastsInEnsemble=3,"
+             "perturbationNumber=%d,bitmapPresent=%d",
+             4 - k, k == 2);
+    grib_add(f, "regular_ll_pl_grib2", member, 0, "bitsPerValue=16", WIND_U, WIND_V,
+             NULL);
+  }
+  grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED,
+              "dimension 'number' of 3 samples is neither time nor level");
+  assert_string_equal(fg_context_hint(f->context),
+                      "--at number=WHICH reads one of them: 1, 2, 3");
+  fg_field *field = grib_read(f, &(fg_read_options){.at = "number=2"});
+  assert_string_equal(fg_field_contents(field)->level, "850 hPa, number 2");
+  assert_int_equal(assert_flow(field, NULL, 1e-3), 0);
+  fg_field_destroy(field);
+}
+
 static void fields_without_a_pair_are_named(void **state)
 {
   grib_file *f = *state;
@@ -386,6 +430,7 @@ int main(void)
       CASE(grids_on_the_sphere),       CASE(projected_grids),
       CASE(times_and_levels),          CASE(fields_without_a_pair_are_named),
       CASE(a_message_of_two_fields),   CASE(missing_values),
+      CASE(forecasts_of_one_time),     CASE(one_member_is_read),
   };
   return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);
 }

@@ -96,7 +96,7 @@ static fg_status turn_vectors(float *const velocity[2], const request *r)
 {
   const fg__unstructured *mesh = r->grid->unstructured;
   double *turn[2] = {NULL, NULL};
-  if (!mesh->turn[0] || r->pair->polar.sense != 0)
+  if (!mesh->turn[0])
     return FG_STATUS_OK;
   const fg_status status =
       fg__positions_of(turn, r->data, mesh, mesh->turn, r->grid->samples);
