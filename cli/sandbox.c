@@ -224,7 +224,7 @@ static void read_once(void *data)
 }
 
 /* A GRIB message begins within so many bytes, behind a heading. */
-enum { HEADING_BYTES = 256 };
+enum { HEADING_BYTES = 16384 };
 
 /* The library for a file that begins with these bytes, if it may crash on damaged
  * files. */
@@ -234,7 +234,7 @@ static const char *library_of(const char *start, size_t size)
   if (size >= sizeof hdf5 && memcmp(start, hdf5, sizeof hdf5) == 0)
     return "HDF5";
   for (size_t at = 0; at + 8 <= size; ++at)
-    if (memcmp(start + at, "GRIB", 4) == 0)
+    if (memcmp(start + at, "GRIB", 4) == 0 && (start[at + 7] == 1 || start[at + 7] == 2))
       return "ecCodes";
   return NULL;
 }
@@ -290,6 +290,8 @@ static int complain_of_child(const char *input, const char *library,
 {
   if (outcome->complaint[0])
     complain("%s", outcome->complaint);
+  else if (outcome->signal == SIGBUS)
+    complain("%s: " BECAME_SHORTER, input_name(input));
   else if (outcome->signal == SIGXCPU)
     complain("%s: damaged: reading it takes more than %u s", input_name(input),
              bounds->seconds);

@@ -1,6 +1,7 @@
 #include "field/slab.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "field/fingerprint.h"
 #include "field/refused.h"
 
@@ -325,7 +326,7 @@ static bool copy_word(fg_field *field, const char **slot, const char *text,
   *slot = NULL;
   if (!text)
     return true;
-  char *copy = fg__copy_text(text);
+  char *copy = fg__utf8_copy(text);
   if (!copy)
     return false;
   field->word[field->words++] = copy;
@@ -358,7 +359,7 @@ static fg_status copy_words(fg_field *field, fg_context *context,
 
 fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title)
 {
-  char *copy = fg__copy_text(title);
+  char *copy = fg__utf8_copy(title);
   if (!copy)
     return fg__fail_memory(context, "the field's words", 0);
   for (int i = 0; i < field->words; ++i)

@@ -1,5 +1,6 @@
 #include "interpret/inventory.h"
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -65,6 +66,15 @@ fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* Copies a text to `next`; returns where the one after it goes. */
+static char *copy_word(const char **out, char *next, const char *text)
+{
+  const size_t length = strlen(text);
+  fg__utf8_take(next, 2 * length + 1, text, length);
+  *out = next;
+  return next + strlen(next) + 1;
+}
+
 /* Copies values with their texts, all in one allocation; NULL gives NULL. False: no
  * memory. */
 static bool copy_values(value_list *out, const fg_axis_value *values, int count)
@@ -73,17 +83,16 @@ static bool copy_values(value_list *out, const fg_axis_value *values, int count)
     return true;
   size_t bytes = 0;
   for (int n = 0; n < count; ++n)
-    bytes += strlen(values[n].units) + strlen(values[n].words) + 2;
+    bytes += 2 * (strlen(values[n].units) + strlen(values[n].words) + 1);
   out->value = fg__allocate((size_t)count, sizeof *out->value);
   out->text = fg__allocate(bytes, 1);
   if (!out->value || !out->text)
     return false;
   char *next = out->text;
   for (int n = 0; n < count; ++n) {
-    out->value[n] = (fg_axis_value){.value = values[n].value, .units = next};
-    next = stpcpy(next, values[n].units) + 1;
-    out->value[n].words = next;
-    next = stpcpy(next, values[n].words) + 1;
+    out->value[n].value = values[n].value;
+    next = copy_word(&out->value[n].units, next, values[n].units);
+    next = copy_word(&out->value[n].words, next, values[n].words);
   }
   return true;
 }
@@ -112,7 +121,7 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   entry e = {.vector = *vector};
   bool copied = true;
   for (int k = 0; k < 3; ++k) {
-    e.name[k] = fg__copy_text(vector->name[k]);
+    e.name[k] = fg__utf8_copy(vector->name[k]);
     copied = copied && (e.name[k] || !vector->name[k]);
     e.vector.name[k] = e.name[k];
   }
@@ -120,14 +129,14 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
            copy_values(&e.level, vector->level_value, vector->levels);
   e.vector.time_value = e.time.value;
   e.vector.level_value = e.level.value;
-  e.units = fg__copy_text(vector->units ? vector->units : "");
-  e.found_by = fg__copy_text(vector->found_by ? vector->found_by : "");
-  e.unusable = fg__copy_text(vector->unusable);
-  e.frame = fg__copy_text(vector->frame);
-  e.plane = fg__copy_text(vector->plane);
-  e.absent = fg__copy_text(vector->absent);
-  e.chosen = fg__copy_text(vector->chosen);
-  e.doubts = fg__copy_text(vector->doubts);
+  e.units = fg__utf8_copy(vector->units ? vector->units : "");
+  e.found_by = fg__utf8_copy(vector->found_by ? vector->found_by : "");
+  e.unusable = fg__utf8_copy(vector->unusable);
+  e.frame = fg__utf8_copy(vector->frame);
+  e.plane = fg__utf8_copy(vector->plane);
+  e.absent = fg__utf8_copy(vector->absent);
+  e.chosen = fg__utf8_copy(vector->chosen);
+  e.doubts = fg__utf8_copy(vector->doubts);
   copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
            (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
            (e.absent || !vector->absent) && (e.chosen || !vector->chosen) &&

@@ -109,8 +109,10 @@ fg_status fg__field_read_known(fg_field **out, fg_context *context,
   *out = NULL;
   fg_status status =
       format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
-  if (status != FG_STATUS_OK)
+  if (status != FG_STATUS_OK) {
+    fg__sphere_destroy(sphere);
     return status;
+  }
   if (sphere && on_map)
     status =
         fg__sphere_project(out, context, sphere, options->map, slab.number, slab.count);

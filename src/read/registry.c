@@ -237,11 +237,11 @@ static fg_status read_slab(fg_field **out, fg_context *context, const char *inpu
         input);
   if (status == FG_STATUS_OK)
     status = fg__title_from_file(*out, context, &source, options);
+  status = fg__source_close(&source, context, status);
   if (status != FG_STATUS_OK) {
     fg_field_destroy(*out);
     *out = NULL;
   }
-  fg__source_close(&source);
   return status;
 }
 
@@ -365,7 +365,7 @@ static fg_status describe_file(fg_inventory **out, fg_context *context, const ch
     status = format->inventory(*out, context, &source);
   if (status == FG_STATUS_OK && options && !format->inventory_chosen)
     fg__inventory_choose(*out, options);
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
   return name_the_file(context, status, path);
 }
 
@@ -417,6 +417,6 @@ fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
   fg_status status = open_for(&source, &format, context, input, options);
   if (status == FG_STATUS_OK && format->defaults)
     status = format->defaults(out, context, &source, options ? options : &defaults);
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
   return name_the_file(context, status, input);
 }

@@ -364,6 +364,7 @@ static fg_status add_field(fg__dataset *data, fg__grib_file *file, size_t which)
   const fg__grib_grid *grid = &file->grid[kind->grid];
   const bool lines = fg__grib_has_lines(grid), plane = grid->layout == FG__GRIB_PLANE;
   const bool bent = plane || grid->rotated;
+  const bool named = !grid->unusable[0] && (plane || !lines);
   /* along Mercator's axes, too */
   const double along =
       grid->relative || (plane && grid->projection.kind == FG__GRIB_MERCATOR);
@@ -386,7 +387,7 @@ static fg_status add_field(fg__dataset *data, fg__grib_file *file, size_t which)
       TEXT("units", kind->units),
       TEXT("GRIB_shortName", kind->name),
       TEXT("GRIB_cfVarName", kind->other_name),
-      TEXT(lines ? "grid_mapping" : "mesh", plane || !lines ? of_grid : NULL),
+      TEXT(lines ? "grid_mapping" : "mesh", named ? of_grid : NULL),
       NUMBER("GRIB_uvRelativeToGrid", bent ? &along : NULL),
       {NULL, NULL, NULL}};
   fg__variable *v =

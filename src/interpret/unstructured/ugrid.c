@@ -84,7 +84,7 @@ static void find_rows(fg__unstructured *out, const fg__mesh_search *search,
 {
   double relative = 0.0, poles = 0.0;
   fg__attribute_numbers(search->u, "GRIB_uvRelativeToGrid", &relative, 1);
-  if (!(relative > 0.0) || search->polar ||
+  if (!(relative > 0.0) || (search->pair && search->pair->polar.sense != 0) ||
       !positions_by(out->turn, search->data, topology, "node_rotation"))
     out->turn[0] = out->turn[1] = NULL;
   fg__attribute_numbers(topology, "pole_nodes", &poles, 1);
