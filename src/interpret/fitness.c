@@ -174,7 +174,8 @@ void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variabl
     }
 }
 
-bool fg__has_samples(const fg__pair *pair, const fg__grid *grid, int time, int level)
+/* Whether the file has both components at a time and level. */
+static bool has_samples(const fg__pair *pair, const fg__grid *grid, int time, int level)
 {
   bool has = true;
   for (int k = 0; k < 2; ++k) {
@@ -188,12 +189,29 @@ bool fg__has_samples(const fg__pair *pair, const fg__grid *grid, int time, int l
   return has;
 }
 
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options)
+{
+  fg__vector_words words;
+  if (has_samples(pair, grid, options->time, options->level))
+    return FG_STATUS_OK;
+  const fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
+  return status != FG_STATUS_OK
+             ? status
+             : fg__fail(data->context, FG_STATUS_ARGUMENT,
+                        "%s: has no '%.200s' and '%.200s' at time %d (%s) and level %d "
+                        "(%s)",
+                        data->file[0].path, pair->component[0]->name,
+                        pair->component[1]->name, options->time, words.time,
+                        options->level, words.level);
+}
+
 fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid)
 {
   fg_read_options first = {0};
   for (int time = 0; time < (int)grid->times; ++time)
     for (int level = 0; level < (int)grid->levels; ++level)
-      if (fg__has_samples(pair, grid, time, level)) {
+      if (has_samples(pair, grid, time, level)) {
         first.time = time;
         first.level = level;
         return first;

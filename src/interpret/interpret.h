@@ -155,9 +155,12 @@ void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__varia
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
                       const fg__variable *v);
 
-/* Whether a file has both components at a time and level; and the first at which it has.
- */
-bool fg__has_samples(const fg__pair *pair, const fg__grid *grid, int time, int level);
+/* Refuses a time and level that lack a component: not every time need have every level.
+ * ARGUMENT. */
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options);
+
+/* The first time and level that have both. */
 fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid);
 
 /* Makes a pair unusable whose components lie more than half a cell apart. */

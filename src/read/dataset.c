@@ -213,24 +213,6 @@ static fg_status choose(fg__dataset *data, fg__pair *pair, fg__grid *grid,
   return status == FG_STATUS_OK ? fg__check_choices(data, pair) : status;
 }
 
-/* Not every time need have every level. */
-static fg_status check_samples(const fg__dataset *data, const fg__pair *pair,
-                               const fg__grid *grid, const fg_read_options *options)
-{
-  fg__vector_words words;
-  if (fg__has_samples(pair, grid, options->time, options->level))
-    return FG_STATUS_OK;
-  const fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
-  return status != FG_STATUS_OK
-             ? status
-             : fg__fail(data->context, FG_STATUS_ARGUMENT,
-                        "%s: has no '%.200s' and '%.200s' at time %d (%s) and level %d "
-                        "(%s)",
-                        data->file[0].path, pair->component[0]->name,
-                        pair->component[1]->name, options->time, words.time,
-                        options->level, words.level);
-}
-
 /* The same, with time and level of the options checked. */
 static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
                              fg_context *context, const fg__dataset_format *format,
@@ -244,7 +226,7 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
                          grid->time_name);
   if (status == FG_STATUS_OK)
     status = check_level(data, grid, options->level);
-  return status == FG_STATUS_OK ? check_samples(data, pair, grid, options) : status;
+  return status == FG_STATUS_OK ? fg__check_samples(data, pair, grid, options) : status;
 }
 
 /* Closes what choose() or open_chosen() has opened. */
