@@ -183,10 +183,9 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
     return check_index(data, "level", level, grid->level, grid->levels, grid->level_name);
   if (level == 0)
     return FG_STATUS_OK;
-  fg__fail(
-      data->context, FG_STATUS_ARGUMENT,
-      "%s: level %d asked for, but the field has three components and all %zu levels",
-      data->file[0].path, level, grid->levels);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           "%s: level %d asked for, but it has three components and all %zu levels",
+           data->file[0].path, level, grid->levels);
   fg__hint(data->context, "name two components, --vars U,V, for the plane of one level");
   return FG_STATUS_ARGUMENT;
 }
@@ -232,9 +231,8 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 /* Closes what choose() or open_chosen() has opened. */
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
-  for (int n = 1; n < data->files; ++n)
-    status =
-        fg__source_check(data->context, status, data->file[n].path, data->file[n].size);
+  for (fg__dataset_file *f = data->file + 1; f < data->file + data->files; ++f)
+    status = fg__source_check(data->context, status, f->path, f->size);
   fg__grid_clear(grid);
   fg__dataset_close(data);
   return status;
@@ -277,8 +275,7 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
   return close_chosen(&data, &grid, status);
 }
 
-/* Samples in memory at a time while an inventory counts missing values. */
-enum { COUNTED_AT_ONCE = 1 << 22 };
+enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
 
 static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
                                const fg__pair *pair, const fg__grid *grid)
@@ -313,9 +310,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 {
   fg_axis_value *times = NULL, *levels = NULL;
   char *time_text = NULL, *level_text = NULL;
-  fg_status status = FG_STATUS_OK;
-  if (!vector->unusable)
-    status = fg__index_values(&times, &time_text, data, grid, true);
+  fg_status status = vector->unusable
+                         ? FG_STATUS_OK
+                         : fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__index_values(&levels, &level_text, data, grid, false);
   vector->time_value = times;
@@ -400,11 +397,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
                                const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
-  vector_texts texts;
+  vector_texts texts = {.chosen = ""};
   fg_read_defaults defaults;
   fg_status status = fg__defaults_find(&defaults, data, pair, grid, options);
   fg__velocity_units(texts.units, sizeof texts.units, pair);
-  texts.chosen[0] = '\0';
   for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
     status = fg__chosen_words(data, pair->component[0], of_time == 1, texts.chosen,
                               sizeof texts.chosen);

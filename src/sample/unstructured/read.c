@@ -421,12 +421,20 @@ static void describe_field(fg_inventory_vector *vector, const fg_field *field)
 
 /* What points become between which nothing is known. */
 static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
-                            const fg__scatter_between *between)
+                            const fg__scatter_between *between, const fg_field *field)
 {
-  const size_t used = strlen(mesh->rule);
+  const fg_field_arrays *plane = field ? fg_field_contents(field) : NULL;
+  size_t used = strlen(mesh->rule);
+  if (plane && plane->dimension == 2 && mesh->node[2] && plane->level)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used, "; in the plane %.80s",
+             plane->level);
+  used = strlen(mesh->rule);
   vector->cells = between->cells;
   vector->points = between->points;
-  if (between->gaps > 0)
+  if (between->gaps > 0 && between->cells == 0)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used,
+             ", a grid with gaps in %zu intervals", between->gaps);
+  else if (between->gaps > 0)
     snprintf(mesh->rule + used, sizeof mesh->rule - used,
              ", triangulated; %zu triangles across gaps left out", between->gaps);
   else if (between->cells > 0)
@@ -453,7 +461,7 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
   if (status == FG_STATUS_OK && !sphere)
     status = make_field(&field, &between, &missing, &r, (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK && is_on_points(&r))
-    describe_points(vector, grid->unstructured, &between);
+    describe_points(vector, grid->unstructured, &between, field);
   if (status == FG_STATUS_OK && sphere) {
     fg__sphere_extent extent;
     fg__sphere_extent_of(&extent, sphere);
