@@ -268,6 +268,16 @@ int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
   return count;
 }
 
+bool fg__variable_has(const fg__variable *variable, const size_t *index)
+{
+  const fg__dataset *dataset = variable->owner;
+  const fg__decoder *decoder = dataset->file[variable->file].decoder;
+  size_t at[FG__RANK] = {0};
+  for (int k = 0; k < variable->rank && k < FG__RANK; ++k)
+    at[k] = index[k] + dataset->dimensions[variable->dimension[k]].chosen;
+  return !decoder->has || decoder->has(variable, at);
+}
+
 fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
                              const size_t *count, double *out)
 {

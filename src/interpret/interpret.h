@@ -164,6 +164,14 @@ void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__varia
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
                       const fg__variable *v);
 
+/* Refuses a time and level that lack a component: not every time need have every level.
+ * ARGUMENT. */
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options);
+
+/* The first time and level that have both. */
+fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid);
+
 /* Makes a pair unusable whose components lie more than half a cell apart. */
 void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 

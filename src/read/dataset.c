@@ -217,7 +217,9 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
   if (status == FG_STATUS_OK)
     status = check_index(data, "time", options->time, grid->time, grid->times,
                          grid->time_name);
-  return status == FG_STATUS_OK ? check_level(data, grid, options->level) : status;
+  if (status == FG_STATUS_OK)
+    status = check_level(data, grid, options->level);
+  return status == FG_STATUS_OK ? fg__check_samples(data, pair, grid, options) : status;
 }
 
 /* Closes what choose() or open_chosen() has opened. */
@@ -273,13 +275,15 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *d
 {
   const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
   const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  const fg_read_options at = fg__first_samples(pair, grid);
   size_t count = 0;
   fg_status status = FG_STATUS_OK;
   for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
     const int own = (int)(all - first < most ? all - first : most);
     const fg__rows rows = {(int)first, own, own};
     fg__velocity_samples read = {0};
-    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
+    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)at.time,
+                                       (size_t)at.level, NULL);
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
       bool missing = read.valid && !read.valid[i];
       for (int k = 0; k < grid->dimension; ++k)
