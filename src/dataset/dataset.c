@@ -287,3 +287,14 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
   free(raw);
   return status;
 }
+
+size_t fg__variable_record(const fg__variable *variable, size_t n)
+{
+  const fg__decoder *decoder = variable->owner->file[variable->file].decoder;
+  return decoder->record ? decoder->record(variable, n) : n;
+}
+
+bool fg__has_no_titles(const fg__variable *variable)
+{
+  return variable->owner->file[variable->file].decoder->has_no_titles;
+}

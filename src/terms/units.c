@@ -248,3 +248,8 @@ fg_status fg__check_degrees(fg_context *context, const char *path,
   fg__hint(context, "correct their units in the file");
   return FG_STATUS_ARGUMENT;
 }
+
+const char *fg__units_of_name(const char *name)
+{
+  return fg__is_same(name, "sknt") ? "kn" : "";
+}

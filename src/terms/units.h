@@ -58,6 +58,9 @@ fg_status fg__check_degrees(fg_context *context, const char *path,
 /* Whether those between these ends do. */
 bool fg__fill_radians(const double longitude[2], const double latitude[2]);
 
+/* The units that a name implies, "kn" of METAR's sknt; "": none. */
+const char *fg__units_of_name(const char *name);
+
 /* Whether a word is a unit that stands behind a name without brackets: "X mm". */
 bool fg__is_unit_in_name(const char *word);
 

@@ -60,6 +60,7 @@ static fg_status list_dimensions(const listing *l)
     if (!d)
       continue;
     d->id = ids[i];
+    d->is_nameless = strncmp(name, "phony_dim_", 10) == 0;
     for (int k = 0; k < unlimited_count; ++k)
       d->unlimited = d->unlimited || unlimited[k] == ids[i];
   }
@@ -375,7 +376,8 @@ static void close_state(void *state)
   free(nc);
 }
 
-static const fg__decoder DECODER = {fetch, fetch_texts, close_state};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .fetch_texts = fetch_texts, .close = close_state};
 
 static fg_status list_file(fg__dataset *dataset, fg_context *context,
                            const fg__source *source, fg__nc_state *state)

@@ -3,11 +3,6 @@
 #include "base/memory.h"
 #include "interpret/unstructured/unstructured.h"
 
-static size_t length_of(const fg__dataset *data, const fg__variable *v, int k)
-{
-  return data->dimensions[v->dimension[k]].length;
-}
-
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
 {
   const fg__attribute *units = fg__attribute_find(v, "units");
@@ -16,13 +11,14 @@ double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
              : fg__degrees_per_unit(v);
 }
 
-fg_status fg__positions_of(double *out[2], const fg__dataset *data,
-                           const fg__unstructured *mesh, const fg__variable *const at[2],
-                           size_t count)
+fg_status fg__positions_of(double *out[], const fg__dataset *data,
+                           const fg__unstructured *mesh, const fg__variable *const at[],
+                           size_t count, int coordinates)
 {
-  for (int k = 0; k < 2; ++k) {
-    const size_t numbers =
-        length_of(data, at[k], 0) * (at[k]->rank > 1 ? length_of(data, at[k], 1) : 1);
+  for (int k = 0; k < coordinates; ++k) {
+    size_t numbers = 1;
+    for (int d = 0; d < at[k]->rank; ++d)
+      numbers *= data->dimensions[at[k]->dimension[d]].length;
     if (numbers != count)
       return fg__fail(data->context, FG_STATUS_FILE_FORMAT,
                       "%s: '%s' has %zu numbers instead of %zu", at[k]->path, at[k]->name,

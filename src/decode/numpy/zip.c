@@ -5,8 +5,8 @@
 #include <zlib.h>
 
 #include "base/utf8.h"
+#include "decode/numpy/numpy.h"
 #include "file/checksum.h"
-#include "read/npy/npy.h"
 
 enum {
   END_BYTES = 22,
