@@ -81,7 +81,7 @@ typedef struct fg__decoder {
   fg_status (*fetch)(const fg__variable *variable, const size_t *start,
                      const size_t *count, double *out);
   /* Texts [first, first + count) of a variable of texts, or of rows of letters: each
-   * takes `size` bytes, ended by NUL. */
+   * takes `size` bytes, ended by NUL. NULL: the format has numbers alone. */
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);
@@ -125,9 +125,9 @@ struct fg__dataset {
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are borrowed until the next of
- * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
- * too many), MEMORY. */
+ * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are
+ * borrowed until the next of their kind is added, and NULL, with the message, where
+ * memory lacks. ARGUMENT (one file too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
                             size_t size, const fg__decoder *decoder);
 fg__dimension *fg__dataset_add_dimension(fg__dataset *dataset, const char *name,
