@@ -202,6 +202,10 @@ typedef struct fg__missing_counts {
   size_t fill, range, not_a_number; /* samples that are missing, by reason */
 } fg__missing_counts;
 
+/* 57.3 of longitudes and latitudes in radians, -1 of degrees west or south, else 1:
+ * numbers that are unpacked are in degrees east and north. */
+double fg__degrees_per_unit(const fg__variable *v);
+
 fg__packing fg__packing_of(const fg__variable *variable);
 
 /* The value of a stored number, NaN when it is missing. */

@@ -93,6 +93,20 @@ static const fg__variable *find_direction(const fg__dataset *data)
   return NULL;
 }
 
+/* Lists variables as "u, lat, lon", possible components first. */
+static fg__names list_variables(const fg__dataset *data)
+{
+  fg__names names = {0};
+  for (int turn = 0; turn < 2; ++turn)
+    for (size_t i = 0; i < data->variable_count; ++i) {
+      const fg__variable *v = &data->variables[i];
+      const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
+      if (is_field == (turn == 0) && v->element < 2)
+        fg__names_add(&names, ", ", "%s", v->name);
+    }
+  return names;
+}
+
 static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
                                    const char *name)
 {
@@ -102,6 +116,8 @@ static fg_status fail_unknown_name(const fg__dataset *data, const candidates *al
                data->file[data->component_files - 1].path, name);
   if (list.count > 0)
     fg__hint(data->context, "pairs in it: %s", list.text);
+  else
+    fg__hint(data->context, "variables in it: %s", list_variables(data).text);
   return status;
 }
 
@@ -109,12 +125,13 @@ static fg_status fail_names(const fg__dataset *data, const candidates *all,
                             const char *vars)
 {
   const fg__names list = list_pairs(all, NULL);
-  fg__fail(data->context, FG_STATUS_ARGUMENT,
-           strchr(vars, ',')
-               ? "%s: '%s' is not two or three names with commas between, nor four or six "
-                 "with the coordinates first"
-               : "%s: '%s' is one variable, and a velocity has two or three components",
-           data->file[0].path, vars);
+  fg__fail(
+      data->context, FG_STATUS_ARGUMENT,
+      strchr(vars, ',')
+          ? "%s: '%s' is not two or three names with commas between, nor four or six "
+            "with the coordinates first"
+          : "%s: '%s' is one variable, and a velocity has two or three components",
+      data->file[0].path, vars);
   if (list.count > 0)
     fg__hint(data->context, "pairs in it: %s", list.text);
   else
@@ -249,20 +266,6 @@ static fg_status check_places(const fg__dataset *data, const fg__pair *pair,
                   "%s: '%.120s' and '%.120s' are no coordinates of '%.120s'",
                   data->file[0].path, pair->position[0]->name, pair->position[1]->name,
                   pair->component[0]->name);
-}
-
-/* Lists variables as "u, lat, lon", possible components first. */
-static fg__names list_variables(const fg__dataset *data)
-{
-  fg__names names = {0};
-  for (int turn = 0; turn < 2; ++turn)
-    for (size_t i = 0; i < data->variable_count; ++i) {
-      const fg__variable *v = &data->variables[i];
-      const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
-      if (is_field == (turn == 0) && v->element < 2)
-        fg__names_add(&names, ", ", "%s", v->name);
-    }
-  return names;
 }
 
 static bool all_are_columns(const fg__dataset *data)

@@ -181,6 +181,9 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);
+/* axes.c. Makes a pair unusable whose longitudes and latitudes are radians, or no
+ * latitudes, by their numbers. */
+void fg__check_axes_in_degrees(fg__grid *grid);
 
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);

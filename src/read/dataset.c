@@ -229,9 +229,8 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 /* Closes what choose() or open_chosen() has opened. */
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
-  for (int n = 1; n < data->files; ++n)
-    status =
-        fg__source_check(data->context, status, data->file[n].path, data->file[n].size);
+  for (fg__dataset_file *f = data->file + 1; f < data->file + data->files; ++f)
+    status = fg__source_check(data->context, status, f->path, f->size);
   fg__grid_clear(grid);
   fg__dataset_close(data);
   return status;
@@ -274,8 +273,7 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
   return close_chosen(&data, &grid, status);
 }
 
-/* Samples in memory at a time while an inventory counts missing values. */
-enum { COUNTED_AT_ONCE = 1 << 22 };
+enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
 
 static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
                                const fg__pair *pair, const fg__grid *grid)

@@ -68,7 +68,7 @@ static bool lies_along(const fg__mesh_search *search, int dimension)
 static void settle(fg__unstructured *out, const fg__variable *topology, const char *where)
 {
   const fg__variable *at = out->node[0];
-  out->in_plane = fg__angle_role(at) == FG__NO_ROLE;
+  out->in_plane = at->geographic == FG__NO_ROLE;
   snprintf(out->rule, sizeof out->rule,
            "%s, on the %s of the mesh '%.100s' (cf_role mesh_topology)",
            out->in_plane ? "along x and y" : "east and north", where,

@@ -112,9 +112,6 @@ bool fg__find_coordinates(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_places(fg__unstructured *out, fg__mesh_search *search);
 
-/* Longitude (X), latitude (Y) or neither, in degrees or radians. */
-fg__role fg__angle_role(const fg__variable *v);
-
 /* Whether two dimensions are one: of two files those of one length. */
 bool fg__same_dimension(const fg__dataset *data, int a, int b);
 
@@ -123,7 +120,7 @@ bool fg__same_dimension(const fg__dataset *data, int a, int b);
 bool fg__named_positions(const fg__variable *out[2], const fg__dataset *data,
                          const char *names);
 
-/* Degrees in a unit of positions. */
+/* Degrees in a unit of positions as they are stored. */
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v);
 
 /* Positions of two or three coordinates, in degrees or the plane's units. */
