@@ -309,6 +309,9 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size)
 {
   const fg__dataset_file *file = &variable->owner->file[variable->file];
+  if (!file->decoder->fetch_texts)
+    return fg__fail(variable->owner->context, FG_STATUS_UNSUPPORTED,
+                    "%s: '%s' is of numbers", variable->path, variable->name);
   char *raw = fg__allocate(size, 1);
   fg_status status = raw ? file->decoder->fetch_texts(variable, first, count, out, size)
                          : fg__fail_memory(variable->owner->context, "a text", size);

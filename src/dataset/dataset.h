@@ -91,7 +91,7 @@ typedef struct fg__decoder {
   fg_status (*fetch)(const fg__variable *variable, const size_t *start,
                      const size_t *count, double *out);
   /* Texts [first, first + count) of a variable of texts, or of rows of letters: each
-   * takes `size` bytes, ended by NUL. */
+   * takes `size` bytes, ended by NUL. NULL: the format has numbers alone. */
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);

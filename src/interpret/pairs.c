@@ -56,12 +56,31 @@ typedef struct candidates {
   size_t count;
 } candidates;
 
-static bool may_be_component(const fg__dataset *data, const fg__variable *v)
+/* What is known of the last dimension without a name: all of a table's columns lie along
+ * one. */
+typedef struct known_line {
+  int dimension;
+  bool has_places;
+} known_line;
+
+static bool lies_at_places(const fg__dataset *data, const fg__variable *v,
+                           known_line *known)
+{
+  const int dimension = v->dimension[0];
+  if (!data->dimensions[dimension].is_nameless)
+    return fg__unstructured_line(data, v);
+  if (dimension != known->dimension)
+    *known = (known_line){dimension, fg__unstructured_line(data, v)};
+  return known->has_places;
+}
+
+static bool may_be_component(const fg__dataset *data, const fg__variable *v,
+                             known_line *known)
 {
   if (data->space.is_there)
     return fg__may_be_in_space(v);
   return v->file < data->component_files && fg__is_array(v) && !v->element &&
-         (v->rank >= 2 || fg__unstructured_line(data, v));
+         (v->rank >= 2 || lies_at_places(data, v, known));
 }
 
 static bool have_same_places(const fg__dataset *data, const fg__variable *a,
@@ -86,11 +105,12 @@ static bool list_candidates(candidates *out, const fg__dataset *data)
 {
   out->term = fg__allocate(data->variable_count, sizeof *out->term);
   out->variable = fg__allocate(data->variable_count, sizeof *out->variable);
+  known_line known = {.dimension = -1};
   if (!out->term || !out->variable)
     return false;
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
-    if (!may_be_component(data, v))
+    if (!may_be_component(data, v, &known))
       continue;
     fg__term *term = &out->term[out->count];
     *term = fg__term_of(v);
