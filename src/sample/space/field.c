@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "field/slab.h"
 #include "sample/space/space.h"
 
 enum { NAME_BYTES = 256, COUNTED_AT_ONCE = 1 << 22 };
@@ -120,6 +121,11 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
     status = fg__space_samples(velocity, data, pair, grid, &range, options->mask, plane);
   for (size_t i = 0; plane && i < row * range.count && status == FG_STATUS_OK; ++i)
     add_squares(sum, velocity, i);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__field_check_plane(data->context, sum[0], sum[1],
+                              (const char *[2]){fg__space_domain_axis_name(domain, 0),
+                                                fg__space_domain_axis_name(domain, 1)});
   if (status == FG_STATUS_OK)
     status = create_field(out, data, pair, grid, options, velocity, axis, &slab);
   if (status == FG_STATUS_OK)
