@@ -268,6 +268,16 @@ int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
   return count;
 }
 
+bool fg__variable_has(const fg__variable *variable, const size_t *index)
+{
+  const fg__dataset *dataset = variable->owner;
+  const fg__decoder *decoder = dataset->file[variable->file].decoder;
+  size_t at[FG__RANK] = {0};
+  for (int k = 0; k < variable->rank && k < FG__RANK; ++k)
+    at[k] = index[k] + dataset->dimensions[variable->dimension[k]].chosen;
+  return !decoder->has || decoder->has(variable, at);
+}
+
 fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
                              const size_t *count, double *out)
 {
@@ -299,6 +309,9 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size)
 {
   const fg__dataset_file *file = &variable->owner->file[variable->file];
+  if (!file->decoder->fetch_texts)
+    return fg__fail(variable->owner->context, FG_STATUS_UNSUPPORTED,
+                    "%s: '%s' is of numbers", variable->path, variable->name);
   char *raw = fg__allocate(size, 1);
   fg_status status = raw ? file->decoder->fetch_texts(variable, first, count, out, size)
                          : fg__fail_memory(variable->owner->context, "a text", size);

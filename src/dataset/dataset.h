@@ -75,9 +75,11 @@ typedef struct fg__variable {
   bool no_velocity; /* the file says that it is something else, such as normals */
   fg__attribute *attribute;
   size_t attributes;
-  double fill;     /* of samples that were never written; NaN: there is none */
-  bool in_one_run; /* its samples lie in the file one after the other */
-  int place, id;   /* the decoder's own */
+  double fill;          /* of samples that were never written; NaN: there is none */
+  bool in_one_run;      /* its samples lie in the file one after the other */
+  bool fits_file;       /* the decoder has compared its size with the file's */
+  const char *unusable; /* why it cannot be read, the decoder's; NULL: it can */
+  int place, id;        /* the decoder's own */
   /* by interpret/, once a dataset is open */
   fg__role geographic; /* longitude (X), latitude (Y), or neither */
 } fg__variable;
@@ -89,10 +91,12 @@ typedef struct fg__decoder {
   fg_status (*fetch)(const fg__variable *variable, const size_t *start,
                      const size_t *count, double *out);
   /* Texts [first, first + count) of a variable of texts, or of rows of letters: each
-   * takes `size` bytes, ended by NUL. */
+   * takes `size` bytes, ended by NUL. NULL: the format has numbers alone. */
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);
+  /* Whether the file has the samples at these indices; NULL: it has all. */
+  bool (*has)(const fg__variable *variable, const size_t *index);
   bool has_no_titles; /* but names and units alone */
   /* Of a text: what sample number n of a column stands in, "line", and its number;
    * NULL: samples are counted. */
@@ -230,6 +234,9 @@ fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
 fg_status fg__variable_fetch_one(const fg__variable *variable, const size_t *index,
                                  double *out);
 
+/* Whether the file has the samples there: some times lack levels that others have. */
+bool fg__variable_has(const fg__variable *variable, const size_t *index);
+
 /* Texts along the first dimension of a variable of texts, or of letters with two; indices
  * are the file's. */
 fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
@@ -256,6 +263,10 @@ typedef struct fg__packing {
 typedef struct fg__missing_counts {
   size_t fill, range, not_a_number; /* samples that are missing, by reason */
 } fg__missing_counts;
+
+/* 57.3 of longitudes and latitudes in radians, -1 of degrees west or south, else 1:
+ * numbers that are unpacked are in degrees east and north. */
+double fg__degrees_per_unit(const fg__variable *v);
 
 fg__packing fg__packing_of(const fg__variable *variable);
 

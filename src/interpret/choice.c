@@ -38,6 +38,25 @@ static fg__names list_pairs(const candidates *all, const int *dimension)
   return names;
 }
 
+/* The only variable that GRIB calls so, as "10u" is called u10 too; NULL: none. */
+static const fg__variable *find_alias(const fg__dataset *data, const char *name, int file)
+{
+  static const char *const words[] = {"GRIB_shortName", "GRIB_cfVarName"};
+  const fg__variable *found = NULL;
+  char text[FG__TEXT_BYTES];
+  for (size_t i = 0; i < data->variable_count; ++i)
+    for (int k = 0; k < 2; ++k) {
+      const fg__variable *v = &data->variables[i];
+      if (v->file != file || !fg__attribute_text(v, words[k], text, sizeof text) ||
+          strcmp(text, name) != 0)
+        continue;
+      if (found && found != v)
+        return NULL;
+      found = v;
+    }
+  return found;
+}
+
 /* Whether a text is a column's name, in any letters, perhaps with its units behind it, as
  * in "Wind Speed (kt)". */
 static bool is_column(const char *name, const char *text)
@@ -78,6 +97,7 @@ static const fg__variable *find_named(const fg__dataset *data, const char *name,
   for (size_t i = 0; i < data->variable_count && !found; ++i)
     if (is_column(data->variables[i].plain_name, name))
       found = &data->variables[i];
+  found = found ? found : find_alias(data, name, preferred);
   return found ? found : find_numbered(data, name);
 }
 

@@ -390,6 +390,8 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
     fg__set_unusable(grid->unusable,
                      "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
                      x->units);
+  if (grid->scale == FG_SCALE_GEO && is_usable(grid))
+    fg__check_axes_in_degrees(grid);
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
                      x->name, x->units, y->name, y->units);

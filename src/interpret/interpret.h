@@ -164,6 +164,14 @@ void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__varia
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
                       const fg__variable *v);
 
+/* Refuses a time and level that lack a component: not every time need have every level.
+ * ARGUMENT. */
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options);
+
+/* The first time and level that have both. */
+fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid);
+
 /* Makes a pair unusable whose components lie more than half a cell apart. */
 void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 
@@ -190,6 +198,9 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);
+/* axes.c. Makes a pair unusable whose longitudes and latitudes are radians, or no
+ * latitudes, by their numbers. */
+void fg__check_axes_in_degrees(fg__grid *grid);
 
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);

@@ -177,10 +177,9 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
     return check_index(data, "level", level, grid->level, grid->levels, grid->level_name);
   if (level == 0)
     return FG_STATUS_OK;
-  fg__fail(
-      data->context, FG_STATUS_ARGUMENT,
-      "%s: level %d asked for, but the field has three components and all %zu levels",
-      data->file[0].path, level, grid->levels);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           "%s: level %d asked for, but it has three components and all %zu levels",
+           data->file[0].path, level, grid->levels);
   fg__hint(data->context, "name two components, --vars U,V, for the plane of one level");
   return FG_STATUS_ARGUMENT;
 }
@@ -218,7 +217,9 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
   if (status == FG_STATUS_OK)
     status = check_index(data, "time", options->time, grid->time, grid->times,
                          grid->time_name);
-  return status == FG_STATUS_OK ? check_level(data, grid, options->level) : status;
+  if (status == FG_STATUS_OK)
+    status = check_level(data, grid, options->level);
+  return status == FG_STATUS_OK ? fg__check_samples(data, pair, grid, options) : status;
 }
 
 /* Closes what choose() or open_chosen() has opened. */
@@ -267,21 +268,22 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
   return close_chosen(&data, &grid, status);
 }
 
-/* Samples in memory at a time while an inventory counts missing values. */
-enum { COUNTED_AT_ONCE = 1 << 22 };
+enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
 
 static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
                                const fg__pair *pair, const fg__grid *grid)
 {
   const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
   const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  const fg_read_options at = fg__first_samples(pair, grid);
   size_t count = 0;
   fg_status status = FG_STATUS_OK;
   for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
     const int own = (int)(all - first < most ? all - first : most);
     const fg__rows rows = {(int)first, own, own};
     fg__velocity_samples read = {0};
-    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
+    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)at.time,
+                                       (size_t)at.level, NULL);
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
       bool missing = read.valid && !read.valid[i];
       for (int k = 0; k < grid->dimension; ++k)
@@ -390,11 +392,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
                                const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
-  vector_texts texts;
+  vector_texts texts = {.chosen = ""};
   fg_read_defaults defaults;
   fg_status status = fg__defaults_find(&defaults, data, pair, grid, options);
   fg__velocity_units(texts.units, sizeof texts.units, pair);
-  texts.chosen[0] = '\0';
   for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
     status = fg__chosen_words(data, pair->component[0], of_time == 1, texts.chosen,
                               sizeof texts.chosen);

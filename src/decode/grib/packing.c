@@ -1,7 +1,7 @@
 /* Checks the numbers and sizes of packed values that ecCodes does not check: it would
  * write an image of JPEG 2000 beyond its buffer, read groups beyond the message, and
  * divide by the size of CCSDS' blocks. */
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <string.h>
 

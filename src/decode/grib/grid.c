@@ -1,8 +1,9 @@
 /* Where the values of a field are. */
 #include "base/memory.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,18 @@ static const double CLOSING_TOLERANCE = 0.25;
 /* Coordinates are given in thousandths or millionths of a degree. */
 static const double ROUNDING = 0.0011;
 
+void fg__grib_unusable(fg__grib_grid *grid, const char *format, ...)
+{
+  if (grid->unusable[0])
+    return;
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(grid->unusable, sizeof grid->unusable, format, arguments);
+  va_end(arguments);
+}
+
 typedef struct asking {
+  char type[FG__GRIB_WORD];
   fg__grib_numbers numbers;
   long *row; /* of a reduced grid, as the message has them */
   size_t rows;
@@ -89,17 +101,17 @@ static void ask_numbers(codes_handle *handle, void *data)
                 {"radius", &n->radius},
                 {"earthMajorAxisInMetres", &n->major},
                 {"earthMinorAxisInMetres", &n->minor}};
-  size_t length = sizeof n->type;
+  size_t length = sizeof a->type;
   a->error = handle ? CODES_SUCCESS : CODES_INVALID_MESSAGE;
   if (!handle)
     return;
-  a->error = codes_get_string(handle, "gridType", n->type, &length);
+  a->error = codes_get_string(handle, "gridType", a->type, &length);
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
     *wanted[i].number = number_of(handle, wanted[i].key);
-  n->meridian = number_of(handle, strcmp(n->type, "lambert") == 0
+  n->meridian = number_of(handle, strcmp(a->type, "lambert") == 0
                                       ? "LoVInDegrees"
                                       : "orientationOfTheGridInDegrees");
-  if (strncmp(n->type, "reduced", 7) == 0)
+  if (strncmp(a->type, "reduced", 7) == 0)
     ask_rows(handle, a);
 }
 
@@ -144,8 +156,7 @@ static fg_status fill_longitudes(fg__grib_grid *grid, fg_context *context,
     last += last <= first ? 360.0 * (floor((first - last) / 360.0) + 1.0) : 0.0;
   const double width = fabs(last - first), step = width / (double)(grid->size[0] - 1);
   if (!isfinite(width) || width > 360.0 + ROUNDING || fabs(first) > 720.0) {
-    fg__set_unusable(grid->unusable, "its longitudes go from %g to %g", n->first[0],
-                     n->last[0]);
+    fg__grib_unusable(grid, "its longitudes go from %g to %g", n->first[0], n->last[0]);
     return FG_STATUS_OK;
   }
   fill_evenly(grid->axis[0], grid->size[0], first, last);
@@ -179,9 +190,8 @@ static void take_gaussian(fg__grib_grid *grid, const double *all, size_t count,
   const double spacing = 180.0 / (double)count;
   if (grid->size[1] > count - at || fabs(all[at] - north) > 0.5 * spacing ||
       fabs(all[at + grid->size[1] - 1] - fmin(n->first[1], n->last[1])) > 0.5 * spacing) {
-    fg__set_unusable(grid->unusable,
-                     "%zu rows from %g to %g are not of a Gaussian grid of %zu",
-                     grid->size[1], n->first[1], n->last[1], count);
+    fg__grib_unusable(grid, "%zu rows from %g to %g are not of a Gaussian grid of %zu",
+                      grid->size[1], n->first[1], n->last[1], count);
     return;
   }
   for (size_t j = 0; j < grid->size[1]; ++j)
@@ -193,10 +203,10 @@ static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
 {
   const size_t half = count_of(n->gaussian);
   if (half == 0 || half > MOST_GAUSSIAN || grid->size[1] > 2 * half) {
-    fg__set_unusable(grid->unusable,
-                     "it has %zu rows of a Gaussian grid with %g from pole to "
-                     "equator",
-                     grid->size[1], n->gaussian);
+    fg__grib_unusable(grid,
+                      "it has %zu rows of a Gaussian grid with %g from pole to "
+                      "equator",
+                      grid->size[1], n->gaussian);
     return FG_STATUS_OK;
   }
   gaussian all = {.rows = (long)half};
@@ -206,8 +216,8 @@ static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
   fg_status status =
       fg__grib_guard(file, field, MOST_BYTES + field->size, ask_gaussian, &all);
   if (status == FG_STATUS_OK && all.error)
-    fg__set_unusable(grid->unusable, "its Gaussian latitudes: %s",
-                     codes_get_error_message(all.error));
+    fg__grib_unusable(grid, "its Gaussian latitudes: %s",
+                      codes_get_error_message(all.error));
   else if (status == FG_STATUS_OK)
     take_gaussian(grid, all.latitude, 2 * half, n);
   free(all.latitude);
@@ -223,8 +233,8 @@ static fg_status fill_latitudes(fg__grib_grid *grid, const fg__grib_file *file,
     return status;
   if (!(fabs(first) <= 90.0 + ROUNDING && fabs(last) <= 90.0 + ROUNDING) ||
       (grid->y_descends ? !(first > last) : !(first < last))) {
-    fg__set_unusable(grid->unusable, "its latitudes go from %g to %g, where they %s",
-                     first, last, grid->y_descends ? "descend" : "ascend");
+    fg__grib_unusable(grid, "its latitudes go from %g to %g, where they %s", first, last,
+                      grid->y_descends ? "descend" : "ascend");
     return FG_STATUS_OK;
   }
   if (strstr(grid->type, "gg"))
@@ -302,7 +312,7 @@ static fg_status find_rows(fg__grib_grid *grid, fg_context *context, const askin
     return fg__fail_memory(context, "rows", 3 * a->rows * sizeof *grid->step);
   for (size_t j = 0; j < a->rows; ++j) {
     if (a->row[j] < 1 || a->row[j] > 1 << 20) {
-      fg__set_unusable(grid->unusable, "a row of it has %ld points", a->row[j]);
+      fg__grib_unusable(grid, "a row of it has %ld points", a->row[j]);
       return FG_STATUS_OK;
     }
     longest = a->row[j] > longest ? a->row[j] : longest;
@@ -311,8 +321,8 @@ static fg_status find_rows(fg__grib_grid *grid, fg_context *context, const askin
       place_rows(grid, a, CUT_OUT) == grid->points ||
       place_rows(grid, a, BETWEEN) == grid->points)
     return FG_STATUS_OK;
-  fg__set_unusable(grid->unusable, "its %zu rows do not have its %zu points together",
-                   a->rows, grid->points);
+  fg__grib_unusable(grid, "its %zu rows do not have its %zu points together", a->rows,
+                    grid->points);
   return FG_STATUS_OK;
 }
 
@@ -323,9 +333,8 @@ static fg_status find_reduced(fg__grib_grid *grid, const fg__grib_file *file,
       grid->alternates || !isfinite(a->numbers.first[0]) ||
       !isfinite(a->numbers.last[0]) || fabs(a->numbers.first[0]) > 720.0 ||
       fabs(a->numbers.last[0]) > 720.0) {
-    fg__set_unusable(grid->unusable,
-                     "a reduced grid of %zu rows, of which %zu say their points",
-                     grid->size[1], a->rows);
+    fg__grib_unusable(grid, "a reduced grid of %zu rows, of which %zu say their points",
+                      grid->size[1], a->rows);
     return FG_STATUS_OK;
   }
   fg_status status = fill_latitudes(grid, file, field, &a->numbers);
@@ -357,11 +366,11 @@ static bool find_layout(fg__grib_grid *grid)
       return true;
     }
   if (strcmp(grid->type, "sh") == 0)
-    fg__set_unusable(grid->unusable, "it has spherical harmonics ('sh') and no grid, as "
-                                     "cdo sp2gp would make of them");
+    fg__grib_unusable(grid, "it has spherical harmonics ('sh') and no grid, as "
+                            "cdo sp2gp would make of them");
   else
-    fg__set_unusable(grid->unusable, "its grid is of a type that is not known here, '%s'",
-                     grid->type);
+    fg__grib_unusable(grid, "its grid is of a type that is not known here, '%s'",
+                      grid->type);
   return false;
 }
 
@@ -370,27 +379,24 @@ static void check_counts(fg__grib_grid *grid, const fg__grib_field *field,
 {
   const size_t most = POINTS + POINTS_A_BYTE * field->size;
   if (grid->points == 0 || grid->points > most)
-    fg__set_unusable(grid->unusable,
-                     "it has %g points, and a message of %zu bytes at most %zu",
-                     n->points, field->size, most);
+    fg__grib_unusable(grid, "it has %g points, and a message of %zu bytes at most %zu",
+                      n->points, field->size, most);
   else if (grid->size[1] < 2 || (grid->layout != FG__GRIB_REDUCED && grid->size[0] < 2))
-    fg__set_unusable(grid->unusable, "it has %g columns and %g rows", n->columns,
-                     n->rows);
+    fg__grib_unusable(grid, "it has %g columns and %g rows", n->columns, n->rows);
   else if (grid->layout != FG__GRIB_REDUCED &&
            grid->size[0] * grid->size[1] != grid->points)
-    fg__set_unusable(grid->unusable, "%zu columns and %zu rows are not its %zu points",
-                     grid->size[0], grid->size[1], grid->points);
+    fg__grib_unusable(grid, "%zu columns and %zu rows are not its %zu points",
+                      grid->size[0], grid->size[1], grid->points);
   if (grid->rotated &&
       !(fabs(n->pole[1]) <= 90.0 + ROUNDING && fabs(n->pole[0]) <= 720.0))
-    fg__set_unusable(grid->unusable, "its southern pole is at %g, %g", n->pole[0],
-                     n->pole[1]);
+    fg__grib_unusable(grid, "its southern pole is at %g, %g", n->pole[0], n->pole[1]);
 }
 
 static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
                       const fg__grib_field *field, const asking *a)
 {
   const fg__grib_numbers *n = &a->numbers;
-  snprintf(grid->type, sizeof grid->type, "%s", n->type);
+  snprintf(grid->type, sizeof grid->type, "%s", a->type);
   if (!find_layout(grid))
     return FG_STATUS_OK;
   grid->points = count_of(n->points);
@@ -409,9 +415,12 @@ static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
     return FG_STATUS_OK;
   if (grid->layout == FG__GRIB_PLANE)
     return fg__grib_plane(grid, file->context, n);
-  if (grid->layout == FG__GRIB_REDUCED)
-    return find_reduced(grid, file, field, a);
-  return find_regular(grid, file, field, n);
+  const fg_status status = grid->layout == FG__GRIB_REDUCED
+                               ? find_reduced(grid, file, field, a)
+                               : find_regular(grid, file, field, n);
+  if (grid->layout != FG__GRIB_LONLAT && status == FG_STATUS_OK && !grid->unusable[0])
+    fg__grib_mesh_count(&grid->mesh, grid);
+  return status;
 }
 
 fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
@@ -424,9 +433,9 @@ fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
   if (status == FG_STATUS_OK && a.exhausted)
     status = fg__fail_memory(file->context, "rows", a.rows * sizeof *a.row);
   if (status == FG_STATUS_OK && a.error)
-    status = fg__fail(
-        file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu does not say its grid: %s",
-        file->path[field->file], field->number, codes_get_error_message(a.error));
+    status = fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                      "%s: message %zu does not say its grid: %s", file->path,
+                      field->number, codes_get_error_message(a.error));
   if (status == FG_STATUS_OK)
     status = find(out, file, field, &a);
   free(a.row);
@@ -440,5 +449,10 @@ void fg__grib_grid_clear(fg__grib_grid *grid)
   free(grid->row);
   free(grid->west);
   free(grid->step);
+  for (int k = 0; k < 2; ++k) {
+    free(grid->mesh.position[k]);
+    free(grid->mesh.turn[k]);
+  }
+  free(grid->mesh.corner);
   memset(grid, 0, sizeof *grid);
 }

@@ -1,7 +1,7 @@
 /* ecCodes behind a guard. It was made for sound messages: at others it may print, abort
  * the process, or allocate as much memory as a number in them says. */
 #include "base/memory.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <setjmp.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ typedef struct guard {
   jmp_buf back;
   bool active;
   size_t left; /* bytes that may still be allocated */
-  char reason[FG__GRIB_TEXT];
+  char reason[FG__TEXT_BYTES];
 } guard;
 
 static _Thread_local guard here;
@@ -36,7 +36,7 @@ static void leave_assertion(const char *message)
   if (!here.active)
     abort();
   const char *begin = strchr(message, '`'), *end = begin ? strchr(begin, '\'') : NULL;
-  char reason[FG__GRIB_TEXT];
+  char reason[FG__TEXT_BYTES];
   if (end)
     snprintf(reason, sizeof reason, "ecCodes finds that %.*s does not hold",
              end - begin - 1 < FG__GRIB_WORD ? (int)(end - begin - 1) : FG__GRIB_WORD,
@@ -160,5 +160,14 @@ fg_status fg__grib_guard(const fg__grib_file *file, const fg__grib_field *field,
   if (done)
     return FG_STATUS_OK;
   return fg__fail(file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu is damaged: %s",
-                  file->path[field->file], field->number, here.reason);
+                  file->path, field->number, here.reason);
+}
+
+void fg__grib_word(codes_handle *handle, const char *key, char *out, size_t size)
+{
+  char text[FG__TEXT_BYTES] = "";
+  size_t length = sizeof text;
+  out[0] = '\0';
+  if (codes_get_string(handle, key, text, &length) == CODES_SUCCESS)
+    snprintf(out, size, "%.*s", (int)size - 1, text);
 }

@@ -1,6 +1,6 @@
 /* Messages, and the fields in them. */
 #include "base/memory.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <string.h>
 
@@ -36,8 +36,6 @@ const unsigned char *fg__grib_section(const fg__grib_field *field, int n, size_t
 
 typedef struct scan {
   fg__grib_file *file;
-  int source;
-  const char *path;
   const unsigned char *bytes;
   size_t size, at;
   size_t number; /* of the message at `at`, from 1 */
@@ -47,14 +45,14 @@ static fg_status fail_length(const scan *s, uint64_t length)
 {
   return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                   "%s: message %zu has %llu bytes from byte %zu on, the file %zu",
-                  s->path, s->number, (unsigned long long)length, s->at, s->size);
+                  s->file->path, s->number, (unsigned long long)length, s->at, s->size);
 }
 
 static fg_status fail_section(const scan *s, int n, uint64_t length)
 {
   return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
-                  "%s: section %d of message %zu has a length of %llu bytes", s->path, n,
-                  s->number, (unsigned long long)length);
+                  "%s: section %d of message %zu has a length of %llu bytes",
+                  s->file->path, n, s->number, (unsigned long long)length);
 }
 
 static fg_status add_field(scan *s, const fg__grib_field *field)
@@ -126,7 +124,7 @@ static fg_status scan_second_edition(scan *s, fg__grib_field *field)
     if (!follows || n > 7)
       return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                       "%s: section %d of message %zu is followed by one that says %d",
-                      s->path, before, s->number, n);
+                      s->file->path, before, s->number, n);
     if (length < least[n] || length > end - at)
       return fail_section(s, n, length);
     field->section[n] = at;
@@ -134,7 +132,7 @@ static fg_status scan_second_edition(scan *s, fg__grib_field *field)
       return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                       "%s: message %zu takes its bitmap from an earlier field, and there "
                       "is none",
-                      s->path, s->number);
+                      s->file->path, s->number);
     if (n == 7)
       status = add_field(s, field);
     at += (size_t)length;
@@ -142,7 +140,8 @@ static fg_status scan_second_edition(scan *s, fg__grib_field *field)
   }
   if (status == FG_STATUS_OK && before != 7)
     return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu ends with section %d", s->path, s->number, before);
+                    "%s: message %zu ends with section %d", s->file->path, s->number,
+                    before);
   for (size_t i = first; i < s->file->fields; ++i)
     s->file->field[i].alone = s->file->fields == first + 1;
   return status;
@@ -171,16 +170,12 @@ static fg_status scan_message(scan *s)
 {
   const unsigned char *at = s->bytes + s->at;
   const size_t left = s->size - s->at;
-  fg__grib_field field = {.message = at,
-                          .number = s->number,
-                          .file = (unsigned char)s->source,
-                          .edition = at[7],
-                          .about = -1};
+  fg__grib_field field = {.message = at, .number = s->number, .edition = at[7]};
   const size_t least = field.edition == 1 ? SHORTEST_1 : SHORTEST_2;
   if (field.edition != 1 && field.edition != 2)
     return fg__fail(s->file->context, FG_STATUS_UNSUPPORTED,
-                    "%s: message %zu is of GRIB's edition %d; 1 and 2 are known", s->path,
-                    s->number, field.edition);
+                    "%s: message %zu is of GRIB's edition %d; 1 and 2 are known",
+                    s->file->path, s->number, field.edition);
   if (left < least)
     return fail_length(s, least);
   const uint64_t length =
@@ -191,7 +186,7 @@ static fg_status scan_message(scan *s)
   if (memcmp(at + field.size - sizeof END, END, sizeof END) != 0)
     return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                     "%s: message %zu, %zu bytes from byte %zu on, does not end with 7777",
-                    s->path, s->number, field.size, s->at);
+                    s->file->path, s->number, field.size, s->at);
   s->at += field.size;
   return field.edition == 1 ? scan_first_edition(s, &field)
                             : scan_second_edition(s, &field);
@@ -211,19 +206,14 @@ static fg_status find_message(scan *s)
       return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                       "%s: more than %d bytes before byte %zu are no part of a message, "
                       "after %zu messages",
-                      s->path, most, s->at, s->number);
+                      s->file->path, most, s->at, s->number);
   }
   return FG_STATUS_OK;
 }
 
-fg_status fg__grib_scan(fg__grib_file *file, int number)
+fg_status fg__grib_scan(fg__grib_file *file)
 {
-  const fg__source *source = &file->source[number];
-  scan s = {.file = file,
-            .source = number,
-            .path = source->path,
-            .bytes = source->bytes,
-            .size = source->size};
+  scan s = {.file = file, .bytes = file->source.bytes, .size = file->source.size};
   fg_status status = find_message(&s);
   while (s.at < s.size && status == FG_STATUS_OK) {
     ++s.number;

@@ -1,8 +1,8 @@
 /* Values packed as an image. ecCodes lets libpng print what it finds wrong with one, so
  * what could be wrong is looked for before. */
 #include "base/memory.h"
+#include "decode/grib/grib.h"
 #include "file/checksum.h"
-#include "read/grib/grib.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The values of a field, unpacked by ecCodes and put in the order of the axes. */
 #include "base/memory.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -118,8 +118,8 @@ static size_t place_of(const fg__grib_grid *grid, size_t n)
 static fg_status fail(const fg__grib_file *file, const fg__grib_field *field,
                       const char *reason)
 {
-  return fg__fail(file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu: %s",
-                  file->path[field->file], field->number, reason);
+  return fg__fail(file->context, FG_STATUS_FILE_FORMAT, "%s: message %zu: %s", file->path,
+                  field->number, reason);
 }
 
 static fg_status unpack_all(double *value, const fg__grib_file *file,
@@ -135,12 +135,12 @@ static fg_status unpack_all(double *value, const fg__grib_file *file,
     return fail(file, field, codes_get_error_message(u.error));
   if (u.found != u.count)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu has %zu values, its grid %zu points",
-                    file->path[field->file], field->number, u.found, u.count);
+                    "%s: message %zu has %zu values, its grid %zu points", file->path,
+                    field->number, u.found, u.count);
   return FG_STATUS_OK;
 }
 
-fg_status fg__grib_values(float *out, const fg__grib_file *file,
+fg_status fg__grib_values(double *out, const fg__grib_file *file,
                           const fg__grib_field *field, const fg__grib_grid *grid)
 {
   const char *fault = field->edition == 1 ? check_first_edition(field, grid->points)
@@ -154,7 +154,7 @@ fg_status fg__grib_values(float *out, const fg__grib_file *file,
   for (size_t n = 0; n < grid->points && status == FG_STATUS_OK; ++n) {
     const bool missing = value[n] == MISSING || isnan(value[n]);
     out[grid->layout == FG__GRIB_REDUCED ? n : place_of(grid, n)] =
-        missing ? NAN : (float)value[n];
+        missing ? (double)NAN : value[n];
   }
   free(value);
   return status;

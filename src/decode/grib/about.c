@@ -2,7 +2,7 @@
  * differ in their time alone, so ecCodes decodes once what the others share. */
 #include "base/memory.h"
 #include "base/mix.h"
-#include "read/grib/grib.h"
+#include "decode/grib/grib.h"
 #include "terms/dates.h"
 
 #include <math.h>
@@ -129,21 +129,15 @@ typedef struct telling {
   const fg__grib_field *field;
   fg__grib_kind kind;
   double level;
+  long member;
   long dates[4]; /* date and time of the start, and of when it is valid */
   int error;
 } telling;
 
-static void get_word(codes_handle *handle, const char *key, char *out, size_t size)
-{
-  char text[FG__GRIB_TEXT] = "";
-  size_t length = sizeof text;
-  out[0] = '\0';
-  if (codes_get_string(handle, key, text, &length) == CODES_SUCCESS)
-    snprintf(out, size, "%.*s", (int)size - 1, text);
-}
-
-/* Names of ecCodes' tables are plain; what else a message gave would be its bytes. */
-static void name_by_numbers(fg__grib_kind *kind, const fg__grib_field *field)
+/* A parameter that ecCodes does not know has its numbers for a name, and the words of
+ * WMO's table; what else a message gave would be its bytes. */
+static void name_by_numbers(fg__grib_kind *kind, codes_handle *handle,
+                            const fg__grib_field *field)
 {
   size_t size;
   const unsigned char *at = fg__grib_section(field, field->edition == 1 ? 1 : 4, &size);
@@ -151,7 +145,21 @@ static void name_by_numbers(fg__grib_kind *kind, const fg__grib_field *field)
     snprintf(kind->name, sizeof kind->name, "%d.%d", at[3], at[8]);
   else
     snprintf(kind->name, sizeof kind->name, "%d.%d.%d", field->message[6], at[9], at[10]);
-  kind->other_name[0] = kind->title[0] = '\0';
+  kind->other_name[0] = '\0';
+  fg__grib_word(handle, "parameterName", kind->title, sizeof kind->title);
+  fg__grib_word(handle, "parameterUnits", kind->units, sizeof kind->units);
+  if (strspn(kind->title, "0123456789") == strlen(kind->title)) /* not in it */
+    kind->title[0] = kind->units[0] = '\0';
+}
+
+/* ecCodes' name of CF, or what a title says; of components along a grid they do not point
+ * east. */
+static void name_standard(fg__grib_kind *kind, codes_handle *handle)
+{
+  char *name = kind->standard_name;
+  fg__grib_word(handle, "cfName", name, sizeof kind->standard_name);
+  if (!name[0] || strcmp(name, "unknown") == 0)
+    snprintf(name, sizeof kind->standard_name, "%s", fg__grib_standard_name(kind->title));
 }
 
 /* Units of time whose length ecCodes knows; it looks beyond a table for that of others.
@@ -183,16 +191,17 @@ static void tell(codes_handle *handle, void *data)
     t->error = CODES_OUT_OF_RANGE;
   if (t->error)
     return;
-  get_word(handle, "shortName", kind->name, sizeof kind->name);
-  get_word(handle, "cfVarName", kind->other_name, sizeof kind->other_name);
-  get_word(handle, "name", kind->title, sizeof kind->title);
-  get_word(handle, "units", kind->units, sizeof kind->units);
-  get_word(handle, "typeOfLevel", kind->level_type, sizeof kind->level_type);
-  get_word(handle, "stepType", kind->step_type, sizeof kind->step_type);
+  fg__grib_word(handle, "shortName", kind->name, sizeof kind->name);
+  fg__grib_word(handle, "cfVarName", kind->other_name, sizeof kind->other_name);
+  fg__grib_word(handle, "name", kind->title, sizeof kind->title);
+  fg__grib_word(handle, "units", kind->units, sizeof kind->units);
+  fg__grib_word(handle, "typeOfLevel", kind->level_type, sizeof kind->level_type);
+  fg__grib_word(handle, "stepType", kind->step_type, sizeof kind->step_type);
   if (!kind->name[0] || strcmp(kind->name, "unknown") == 0 || kind->name[0] == '~')
-    name_by_numbers(kind, t->field);
-  if (codes_get_long(handle, "perturbationNumber", &kind->member) != CODES_SUCCESS)
-    kind->member = -1;
+    name_by_numbers(kind, handle, t->field);
+  name_standard(kind, handle);
+  if (codes_get_long(handle, "perturbationNumber", &t->member) != CODES_SUCCESS)
+    t->member = FG__GRIB_NO_MEMBER;
   if (codes_get_double(handle, "level", &t->level) != CODES_SUCCESS ||
       !isfinite(t->level))
     t->level = 0.0;
@@ -223,7 +232,7 @@ static fg_status check_unit(const fg__grib_file *file, const fg__grib_field *fie
     return FG_STATUS_OK;
   return fg__fail(file->context, FG_STATUS_UNSUPPORTED,
                   "%s: message %zu counts time in units of a kind that is not known, %u",
-                  file->path[field->file], field->number, unit);
+                  file->path, field->number, unit);
 }
 
 static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field *field)
@@ -235,30 +244,37 @@ static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field
     status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
   if (status == FG_STATUS_OK && t->error)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
-                    "%s: message %zu does not say what it is of: %s",
-                    file->path[field->file], field->number,
-                    codes_get_error_message(t->error));
-  t->kind.grid = grid_key(field);
+                    "%s: message %zu does not say what it is of: %s", file->path,
+                    field->number, codes_get_error_message(t->error));
   return status;
 }
 
-static int grid_number(const fg__grib_file *file, uint64_t grid)
+/* Finds the grid of a field among the file's, or adds it. */
+static fg_status intern_grid(int *out, fg__grib_file *file, const fg__grib_field *field)
 {
-  int most = 0;
-  for (size_t i = 0; i < file->kinds; ++i) {
-    if (file->kind[i].grid == grid)
-      return file->kind[i].grid_number;
-    most = file->kind[i].grid_number > most ? file->kind[i].grid_number : most;
-  }
-  return most + 1;
+  const uint64_t key = grid_key(field);
+  for (size_t i = 0; i < file->grids; ++i)
+    if (file->grid[i].key == key) {
+      *out = (int)i;
+      return FG_STATUS_OK;
+    }
+  void *grids = file->grid;
+  if (!fg__grow(&grids, &file->grid_capacity, file->grids + 1, sizeof *file->grid))
+    return fg__fail_memory(file->context, "grids",
+                           (file->grids + 1) * sizeof *file->grid);
+  file->grid = grids;
+  fg__grib_grid *grid = &file->grid[file->grids];
+  *out = (int)file->grids++;
+  const fg_status status = fg__grib_grid_find(grid, file, field);
+  grid->key = key;
+  return status;
 }
 
 static fg_status intern_kind(int *out, fg__grib_file *file, const fg__grib_kind *kind)
 {
   for (size_t i = file->kinds; i-- > 0;) {
     const fg__grib_kind *k = &file->kind[i];
-    if (k->grid == kind->grid && k->member == kind->member &&
-        strcmp(k->name, kind->name) == 0 &&
+    if (k->grid == kind->grid && strcmp(k->name, kind->name) == 0 &&
         strcmp(k->level_type, kind->level_type) == 0 &&
         strcmp(k->step_type, kind->step_type) == 0 &&
         strcmp(k->units, kind->units) == 0) {
@@ -272,35 +288,26 @@ static fg_status intern_kind(int *out, fg__grib_file *file, const fg__grib_kind 
                            (file->kinds + 1) * sizeof *kind);
   file->kind = kinds;
   file->kind[file->kinds] = *kind;
-  file->kind[file->kinds].grid_number = grid_number(file, kind->grid);
   *out = (int)file->kinds++;
   return FG_STATUS_OK;
 }
 
-static fg_status add_about(fg__grib_file *file, const fg__grib_field *field, uint64_t key,
-                           const telling *t)
-{
-  void *abouts = file->about;
-  if (!fg__grow(&abouts, &file->about_capacity, file->abouts + 1, sizeof *file->about))
-    return fg__fail_memory(file->context, "what fields are",
-                           (file->abouts + 1) * sizeof *file->about);
-  file->about = abouts;
-  fg__grib_about *about = &file->about[file->abouts];
-  *about = (fg__grib_about){.key = key, .level = t->level, .of = field};
-  ++file->abouts;
-  return intern_kind(&about->kind, file, &t->kind);
-}
+/* What fields have in common but for their time: that of the first of them. */
+typedef struct about {
+  uint64_t key; /* of the bytes that say it */
+  const fg__grib_field *of;
+} about;
 
-/* An open hash of keys; slots hold an about's number and 1. */
+/* An open hash of keys. */
 typedef struct key_table {
-  size_t *slot;
+  about *slot;
   size_t size; /* a power of two */
 } key_table;
 
-static size_t *find_slot(const key_table *table, const fg__grib_file *file, uint64_t key)
+static about *find_slot(const key_table *table, uint64_t key)
 {
   size_t at = (size_t)key & (table->size - 1);
-  while (table->slot[at] && file->about[table->slot[at] - 1].key != key)
+  while (table->slot[at].of && table->slot[at].key != key)
     at = (at + 1) & (table->size - 1);
   return &table->slot[at];
 }
@@ -311,20 +318,27 @@ static fg_status tell_field(fg__grib_file *file, const key_table *table,
   bool timed;
   telling t;
   const uint64_t key = key_of(field, &timed);
-  size_t *slot = find_slot(table, file, key);
+  about *known = find_slot(table, key);
   fg_status status = FG_STATUS_OK;
-  if (*slot == 0 || !timed)
+  if (!known->of || !timed)
     status = ask(&t, file, field);
-  if (status == FG_STATUS_OK && *slot == 0) {
-    status = add_about(file, field, key, &t);
-    *slot = file->abouts;
-  }
   if (status == FG_STATUS_OK && !timed) {
     field->started = minutes_at(t.dates[0], t.dates[1]);
     field->time = minutes_at(t.dates[2], t.dates[3]);
   }
-  field->about = (int)*slot - 1;
-  return status;
+  if (status != FG_STATUS_OK)
+    return status;
+  if (known->of) {
+    field->kind = known->of->kind;
+    field->level = known->of->level;
+    field->member = known->of->member;
+    return FG_STATUS_OK;
+  }
+  field->level = t.level;
+  field->member = t.member;
+  *known = (about){key, field};
+  status = intern_grid(&t.kind.grid, file, field);
+  return status == FG_STATUS_OK ? intern_kind(&field->kind, file, &t.kind) : status;
 }
 
 fg_status fg__grib_tell_all(fg__grib_file *file)
