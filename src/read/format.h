@@ -5,14 +5,32 @@
 #include "base/context.h"
 #include "sphere/sphere.h"
 
+typedef struct fg__source fg__source;
+
+/* What a format opens a file to: its handles, the chosen vector. */
+typedef struct fg__opener {
+  size_t size; /* of the data, zeroed at first */
+  fg_status (*open)(void *data, fg_context *context, const fg__source *source,
+                    const fg_read_options *options);
+  void (*close)(void *data); /* also after a failure */
+} fg__opener;
+
+/* That of an input, kept from call to call. */
+typedef struct fg__kept {
+  void *data; /* NULL: nothing yet */
+  const fg__opener *opener;
+} fg__kept;
+
 /* A file to read: its bytes are mapped or in memory, so that a reader can be fuzzed. A
  * library that wants to open the file itself may use `path` when `on_disk`. */
-typedef struct fg__source {
+struct fg__source {
   const char *path; /* for messages; the file's name when on_disk */
   bool on_disk;
   const unsigned char *bytes;
   size_t size;
-} fg__source;
+  fg__kept *kept; /* for calls whose options differ in time and level alone; NULL: a call
+                     keeps nothing */
+};
 
 /* What a reader is to read: slab `number` of `count` (field/slab.h), or with a count of 1
  * all. */
@@ -89,6 +107,15 @@ extern const fg__format fg__format_table; /* any text: the last */
  * no file, for "-" (fg_context_set_input). FILE_ACCESS, FILE_FORMAT (empty). */
 fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
 void fg__source_close(fg__source *source);
+
+/* Opens a source, or takes what is kept of an earlier call. *out is NULL after a
+ * failure; else fg__source_leave ends the call. */
+fg_status fg__source_enter(void **out, fg_context *context, const fg__source *source,
+                           const fg_read_options *options, const fg__opener *opener);
+void fg__source_leave(void *data, const fg__source *source, const fg__opener *opener);
+
+/* Closes what is kept. */
+void fg__kept_close(fg__kept *kept);
 
 /* Fails for a second file or a level, where the format has neither; `files`: how its
  * files are called. UNSUPPORTED, ARGUMENT. */

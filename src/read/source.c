@@ -1,9 +1,12 @@
 /* Files as bytes in memory. */
 #include "read/format.h"
 
+#include "base/memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -80,4 +83,43 @@ void fg__source_close(fg__source *source)
   if (source->bytes && source->on_disk)
     munmap((void *)(uintptr_t)source->bytes, source->size);
   source->bytes = NULL;
+}
+
+static void close_data(void *data, const fg__opener *opener)
+{
+  opener->close(data);
+  free(data);
+}
+
+fg_status fg__source_enter(void **out, fg_context *context, const fg__source *source,
+                           const fg_read_options *options, const fg__opener *opener)
+{
+  *out = source->kept ? source->kept->data : NULL;
+  if (*out)
+    return FG_STATUS_OK;
+  void *data = fg__allocate(1, opener->size);
+  if (!data)
+    return fg__fail_memory(context, "an open file", opener->size);
+  const fg_status status = opener->open(data, context, source, options);
+  if (status != FG_STATUS_OK) {
+    close_data(data, opener);
+    return status;
+  }
+  if (source->kept)
+    *source->kept = (fg__kept){data, opener};
+  *out = data;
+  return FG_STATUS_OK;
+}
+
+void fg__source_leave(void *data, const fg__source *source, const fg__opener *opener)
+{
+  if (data && !source->kept)
+    close_data(data, opener);
+}
+
+void fg__kept_close(fg__kept *kept)
+{
+  if (kept->data)
+    close_data(kept->data, kept->opener);
+  *kept = (fg__kept){.data = NULL};
 }

@@ -210,36 +210,64 @@ static fg_status find_grid(fg__grib_grid *out, const fg__grib_file *file,
   return status;
 }
 
-typedef struct opened {
+/* Opened files, and the pair that options choose in them. */
+typedef struct choice {
   fg__grib_file file;
   fg__grib_pairs pairs;
-  fg__grib_grid grid;
+} choice;
+
+static fg_status choose(void *data, fg_context *context, const fg__source *source,
+                        const fg_read_options *options)
+{
+  choice *c = data;
+  const fg_status status = open_file(&c->file, context, source, options->vars_from);
+  return status == FG_STATUS_OK ? fg__grib_choose(&c->pairs, &c->file, options) : status;
+}
+
+static void end_choice(void *data)
+{
+  choice *c = data;
+  fg__grib_pairs_clear(&c->pairs);
+  close_file(&c->file);
+}
+
+static const fg__opener CHOICE = {sizeof(choice), choose, end_choice};
+
+static fg_status enter_choice(choice **out, fg_context *context, const fg__source *source,
+                              const fg_read_options *options)
+{
+  void *data;
+  const fg_status status = fg__source_enter(&data, context, source, options, &CHOICE);
+  *out = data;
+  if (*out)
+    (*out)->file.context = context;
+  return status;
+}
+
+/* The place of a pair that is read, and its grid. */
+typedef struct opened {
+  choice *choice;
+  const fg__grib_pair *pair;
   const fg__grib_place *place;
+  fg__grib_grid grid;
 } opened;
 
-/* Finds the pair, place and grid that are asked for; to be closed even after a failure.
- */
+/* Grid and choice are to be ended, also after a failure. */
 static fg_status open_pair(opened *o, fg_context *context, const fg__source *source,
                            const fg_read_options *options)
 {
   memset(o, 0, sizeof *o);
-  fg_status status = open_file(&o->file, context, source, options->vars_from);
+  fg_status status = enter_choice(&o->choice, context, source, options);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg__grib_file *file = &o->choice->file;
+  o->pair = o->choice->pairs.pair;
+  status = fg__grib_find_place(&o->place, file, o->pair, options);
   if (status == FG_STATUS_OK)
-    status = fg__grib_choose(&o->pairs, &o->file, options);
+    status = find_grid(&o->grid, file, o->pair, o->place);
   if (status == FG_STATUS_OK)
-    status = fg__grib_find_place(&o->place, &o->file, o->pairs.pair, options);
-  if (status == FG_STATUS_OK)
-    status = find_grid(&o->grid, &o->file, o->pairs.pair, o->place);
-  if (status == FG_STATUS_OK)
-    status = check_grid(&o->file, o->pairs.pair, &o->grid, options->scale);
+    status = check_grid(file, o->pair, &o->grid, options->scale);
   return status;
-}
-
-static void close_pair(opened *o)
-{
-  fg__grib_grid_clear(&o->grid);
-  fg__grib_pairs_clear(&o->pairs);
-  close_file(&o->file);
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -256,12 +284,13 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
                       source->path, o.grid.type);
   if (status == FG_STATUS_OK)
     status =
-        read_values(velocity, &o.file, o.pairs.pair, o.place, &o.grid, options->mask);
+        read_values(velocity, &o.choice->file, o.pair, o.place, &o.grid, options->mask);
   if (status == FG_STATUS_OK)
-    status = make_field(out, &o.file, o.pairs.pair, &o.grid, velocity, options, slab);
+    status = make_field(out, &o.choice->file, o.pair, &o.grid, velocity, options, slab);
   free(velocity[0]);
   free(velocity[1]);
-  close_pair(&o);
+  fg__grib_grid_clear(&o.grid);
+  fg__source_leave(o.choice, source, &CHOICE);
   return status;
 }
 
@@ -283,10 +312,10 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
                       source->path, o.grid.type);
   if (status == FG_STATUS_OK && mine)
     status =
-        read_values(velocity, &o.file, o.pairs.pair, o.place, &o.grid, options->mask);
+        read_values(velocity, &o.choice->file, o.pair, o.place, &o.grid, options->mask);
   if (status == FG_STATUS_OK && mine) {
     const float *const both[2] = {velocity[0], velocity[1]};
-    write_captions(&words, &arrays, o.pairs.pair, options);
+    write_captions(&words, &arrays, o.pair, options);
     status = fg__grib_cells(&cells, context, &o.grid, both);
   }
   cells.words = &arrays;
@@ -294,7 +323,8 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
     status = fg__sphere_of_cells(out, context, &cells);
   free(velocity[0]);
   free(velocity[1]);
-  close_pair(&o);
+  fg__grib_grid_clear(&o.grid);
+  fg__source_leave(o.choice, source, &CHOICE);
   return status;
 }
 
@@ -453,15 +483,11 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
 static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
                                  const fg__source *source, const fg_read_options *options)
 {
-  fg__grib_file file;
-  fg__grib_pairs pairs = {0};
-  fg_status status = open_file(&file, context, source, options->vars_from);
+  choice *c;
+  fg_status status = enter_choice(&c, context, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__grib_choose(&pairs, &file, options);
-  if (status == FG_STATUS_OK)
-    status = describe_pair(inventory, &file, pairs.pair, false);
-  fg__grib_pairs_clear(&pairs);
-  close_file(&file);
+    status = describe_pair(inventory, &c->file, c->pairs.pair, false);
+  fg__source_leave(c, source, &CHOICE);
   return status;
 }
 

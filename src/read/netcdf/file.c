@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { DEEPEST_GROUP = 8 }; /* in practice groups are nested two or three deep */
 
@@ -230,6 +231,30 @@ fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
     v->plain_name = slash && slash[1] ? slash + 1 : v->name;
     fg__nc_classify(v);
   }
+  return status;
+}
+
+/* Whether two paths lead to one file. */
+static bool is_one_file(const char *path, const char *other)
+{
+  struct stat a, b;
+  return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
+         a.st_ino == b.st_ino;
+}
+
+fg_status fg__nc_file_add(fg__nc_file *file, const char *path)
+{
+  fg__source source;
+  for (int n = 0; n < file->root_count; ++n)
+    if (is_one_file(path, file->paths[n]))
+      return fg__fail(file->context, FG_STATUS_ARGUMENT, "%s: is given twice", path);
+  fg_status status = fg__source_open(&source, file->context, path);
+  if (status == FG_STATUS_OK && fg__nc_kind_of(source.bytes, source.size) == FG__NC_NONE)
+    status = fg__fail(file->context, FG_STATUS_FILE_FORMAT,
+                      "%s: is no NetCDF file like the first one", path);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_file_open(file, file->context, &source);
+  fg__source_close(&source);
   return status;
 }
 

@@ -8,35 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static bool is_netcdf(const unsigned char *bytes, size_t size)
 {
   return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
-}
-
-/* Whether two paths lead to one file. */
-static bool is_one_file(const char *path, const char *other)
-{
-  struct stat a, b;
-  return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
-         a.st_ino == b.st_ino;
-}
-
-static fg_status add_file(fg__nc_file *file, fg_context *context, const char *path)
-{
-  fg__source source;
-  for (int n = 0; n < file->root_count; ++n)
-    if (is_one_file(path, file->paths[n]))
-      return fg__fail(context, FG_STATUS_ARGUMENT, "%s: is given twice", path);
-  fg_status status = fg__source_open(&source, context, path);
-  if (status == FG_STATUS_OK && !is_netcdf(source.bytes, source.size))
-    status = fg__fail(context, FG_STATUS_FILE_FORMAT,
-                      "%s: is no NetCDF file like the first one", path);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_file_open(file, context, &source);
-  fg__source_close(&source);
-  return status;
 }
 
 /* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
@@ -172,6 +147,68 @@ static fg_status make_field(fg_field **out, const fg__nc_file *file,
   return status;
 }
 
+/* An opened source, and the pair that options choose in it. */
+typedef struct choice {
+  fg__nc_file file;
+  fg__nc_pair pair;
+  fg__nc_grid grid;
+} choice;
+
+static fg_status choose(void *data, fg_context *context, const fg__source *source,
+                        const fg_read_options *options)
+{
+  choice *c = data;
+  fg__nc_file *file = &c->file;
+  fg_status status = fg__nc_file_open(file, context, source);
+  if (status == FG_STATUS_OK && options->vars_from) {
+    status = fg__nc_file_add(file, options->vars_from);
+    file->component_files = 2;
+  }
+  if (status == FG_STATUS_OK && options->mesh_from)
+    status = fg__nc_file_add(file, options->mesh_from);
+  if (status == FG_STATUS_OK && options->at)
+    status = fg__nc_choose_samples(file, options->at);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_choose(&c->pair, &c->grid, file, options);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_check_choices(file, &c->pair);
+  for (int n = 1; n < file->root_count && status == FG_STATUS_OK; ++n)
+    status = check_used(file, n, &c->pair, &c->grid, options->mask);
+  return fg__nc_status(file, status);
+}
+
+static void end_choice(void *data)
+{
+  choice *c = data;
+  fg__nc_grid_clear(&c->grid);
+  fg__nc_file_close(&c->file);
+}
+
+static const fg__opener CHOICE = {sizeof(choice), choose, end_choice};
+
+/* *out is NULL after a failure. */
+static fg_status enter_choice(choice **out, fg_context *context, const fg__source *source,
+                              const fg_read_options *options)
+{
+  void *data;
+  const fg_status status = fg__source_enter(&data, context, source, options, &CHOICE);
+  *out = data;
+  if (*out)
+    (*out)->file.context = context;
+  return status;
+}
+
+/* c may be NULL. */
+static fg_status leave_choice(choice *c, const fg__source *source, fg_status status)
+{
+  if (c) {
+    status = fg__nc_status(&c->file, status);
+    c->file.exhausted = false;
+  }
+  fg__source_leave(c, source, &CHOICE);
+  return status;
+}
+
 static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, int level)
 {
   if (grid->dimension == 2)
@@ -186,82 +223,47 @@ static fg_status check_level(const fg__nc_file *file, const fg__nc_grid *grid, i
   return FG_STATUS_ARGUMENT;
 }
 
-/* Opens the source and selects the pair; grid and file have to be cleared, also after a
- * failure. */
-static fg_status choose(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
-                        fg_context *context, const fg__source *source,
-                        const fg_read_options *options)
+static fg_status check_places(const choice *c, const fg_read_options *options)
 {
-  fg_status status = fg__nc_file_open(file, context, source);
-  if (status == FG_STATUS_OK && options->vars_from) {
-    status = add_file(file, context, options->vars_from);
-    file->component_files = 2;
-  }
-  if (status == FG_STATUS_OK && options->mesh_from)
-    status = add_file(file, context, options->mesh_from);
-  if (status == FG_STATUS_OK && options->at)
-    status = fg__nc_choose_samples(file, options->at);
-  if (status == FG_STATUS_OK)
-    status = fg__nc_choose(pair, grid, file, options);
-  return status == FG_STATUS_OK ? fg__nc_check_choices(file, pair) : status;
-}
-
-/* The same, with time and level of the options checked. */
-static fg_status open_chosen(fg__nc_file *file, fg__nc_pair *pair, fg__nc_grid *grid,
-                             fg_context *context, const fg__source *source,
-                             const fg_read_options *options)
-{
-  fg_status status = choose(file, pair, grid, context, source, options);
-  for (int n = 1; n < file->root_count && status == FG_STATUS_OK; ++n)
-    status = check_used(file, n, pair, grid, options->mask);
-  if (status == FG_STATUS_OK)
-    status = check_index(file, "time", options->time, grid->time, grid->times,
-                         grid->time_name);
-  return status == FG_STATUS_OK ? check_level(file, grid, options->level) : status;
-}
-
-/* Closes what choose() or open_chosen() has opened. */
-static fg_status close_chosen(fg__nc_file *file, fg__nc_grid *grid, fg_status status)
-{
-  status = fg__nc_status(file, status);
-  fg__nc_grid_clear(grid);
-  fg__nc_file_close(file);
-  return status;
+  const fg__nc_grid *grid = &c->grid;
+  const fg_status status = check_index(&c->file, "time", options->time, grid->time,
+                                       grid->times, grid->time_name);
+  return status == FG_STATUS_OK ? check_level(&c->file, grid, options->level) : status;
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
                             const fg_read_options *options, fg__slab_index slab)
 {
-  fg__nc_file file = {0};
-  fg__nc_pair pair = {0};
-  fg__nc_grid grid = {0};
+  choice *c;
   fg__sphere *sphere = NULL;
-  fg_status status = open_chosen(&file, &pair, &grid, context, source, options);
-  if (status == FG_STATUS_OK && grid.mesh) {
-    status = fg__nc_sphere_read(&sphere, &file, &pair, &grid, options);
+  fg_status status = enter_choice(&c, context, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh) {
+    status = fg__nc_sphere_read(&sphere, &c->file, &c->pair, &c->grid, options);
     if (status == FG_STATUS_OK)
       status = fg__globe_field(out, context, sphere, slab);
-  } else if (status == FG_STATUS_OK && grid.unstructured) {
-    status = fg__nc_unstructured_field(out, &file, &pair, &grid, options, slab);
+  } else if (status == FG_STATUS_OK && c->grid.unstructured) {
+    status = fg__nc_unstructured_field(out, &c->file, &c->pair, &c->grid, options, slab);
   } else if (status == FG_STATUS_OK) {
-    status = make_field(out, &file, &pair, &grid, options, slab);
+    status = make_field(out, &c->file, &c->pair, &c->grid, options, slab);
   }
   fg__sphere_destroy(sphere);
-  return close_chosen(&file, &grid, status);
+  return leave_choice(c, source, status);
 }
 
 static fg_status read_sphere(fg__sphere **out, fg_context *context,
                              const fg__source *source, const fg_read_options *options)
 {
-  fg__nc_file file = {0};
-  fg__nc_pair pair = {0};
-  fg__nc_grid grid = {0};
-  fg_status status = open_chosen(&file, &pair, &grid, context, source, options);
-  if (status == FG_STATUS_OK && grid.mesh)
-    status = fg__nc_sphere_read(out, &file, &pair, &grid, options);
-  else if (status == FG_STATUS_OK && grid.unstructured)
-    status = fg__nc_unstructured_sphere(out, &file, &pair, &grid, options);
-  return close_chosen(&file, &grid, status);
+  choice *c;
+  fg_status status = enter_choice(&c, context, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh)
+    status = fg__nc_sphere_read(out, &c->file, &c->pair, &c->grid, options);
+  else if (status == FG_STATUS_OK && c->grid.unstructured)
+    status = fg__nc_unstructured_sphere(out, &c->file, &c->pair, &c->grid, options);
+  return leave_choice(c, source, status);
 }
 
 /* Samples in memory at a time while an inventory counts missing values. */
@@ -451,25 +453,21 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
 static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
                                  const fg__source *source, const fg_read_options *options)
 {
-  fg__nc_file file = {0};
-  fg__nc_pair pair = {0};
-  fg__nc_grid grid = {0};
-  fg_status status = choose(&file, &pair, &grid, context, source, options);
+  choice *c;
+  fg_status status = enter_choice(&c, context, source, options);
   if (status == FG_STATUS_OK)
-    status = describe_grid(inventory, &file, &pair, &grid, options, false);
-  return close_chosen(&file, &grid, status);
+    status = describe_grid(inventory, &c->file, &c->pair, &c->grid, options, false);
+  return leave_choice(c, source, status);
 }
 
 static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
                                const fg__source *source, const fg_read_options *options)
 {
-  fg__nc_file file = {0};
-  fg__nc_pair pair = {0};
-  fg__nc_grid grid = {0};
-  fg_status status = choose(&file, &pair, &grid, context, source, options);
+  choice *c;
+  fg_status status = enter_choice(&c, context, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__nc_defaults(out, &file, &pair, &grid, options);
-  return close_chosen(&file, &grid, status);
+    status = fg__nc_defaults(out, &c->file, &c->pair, &c->grid, options);
+  return leave_choice(c, source, status);
 }
 
 const fg__format fg__format_netcdf = {

@@ -105,10 +105,12 @@ typedef struct fg__nc_file {
   bool exhausted; /* memory for an attribute was lacking; the context has the message */
 } fg__nc_file;
 
-/* Opens a source and lists its dimensions and variables; may be called again to add a
- * file. FILE_FORMAT, MEMORY. */
+/* Opens a source and lists its dimensions and variables. FILE_FORMAT, MEMORY. */
 fg_status fg__nc_file_open(fg__nc_file *file, fg_context *context,
                            const fg__source *source);
+
+/* Adds those of a further file. ARGUMENT (one of the files); likewise. */
+fg_status fg__nc_file_add(fg__nc_file *file, const char *path);
 void fg__nc_file_close(fg__nc_file *file);
 
 /* chosen.c. Chooses samples of dimensions, "number=2,expver=0": the dimensions become
