@@ -18,10 +18,9 @@ FG_API fg_status fg_input_open(fg_input **out, fg_context *context, const char *
                                const fg_read_options *options);
 FG_API void fg_input_close(fg_input *input);
 
-/* The vector (fg_inventory_read_chosen), the input's own; *out is NULL where there is
- * none. */
-FG_API fg_status fg_input_vector(const fg_inventory_vector **out, fg_context *context,
-                                 fg_input *input);
+/* The vector, listed as by fg_inventory_read_chosen; the inventory is the input's own. */
+FG_API fg_status fg_input_inventory(const fg_inventory **out, fg_context *context,
+                                    fg_input *input);
 
 /* Its defaults (fg_read_defaults_find). */
 FG_API fg_status fg_input_defaults(fg_read_defaults *out, fg_context *context,

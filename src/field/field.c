@@ -317,42 +317,43 @@ static fg_status fill_part(fg_field *field, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static bool copy_word(fg_field *field, const char **slot, const char *text,
-                      const char *otherwise)
+const char **fg__arrays_word(fg_field_arrays *arrays, int n)
 {
-  if (!text)
-    text = otherwise;
-  *slot = NULL;
-  if (!text)
-    return true;
-  char *copy = fg__copy_text(text);
-  if (!copy)
-    return false;
-  field->word[field->words++] = copy;
-  *slot = copy;
-  return true;
+  const char **const place[FG__FIELD_WORDS] = {&arrays->velocity_name[0],
+                                               &arrays->velocity_name[1],
+                                               &arrays->velocity_name[2],
+                                               &arrays->axis_name[0],
+                                               &arrays->axis_name[1],
+                                               &arrays->axis_name[2],
+                                               &arrays->axis_units[0],
+                                               &arrays->axis_units[1],
+                                               &arrays->axis_units[2],
+                                               &arrays->velocity_units,
+                                               &arrays->title,
+                                               &arrays->time,
+                                               &arrays->level,
+                                               &arrays->projection};
+  return place[n];
 }
 
 static fg_status copy_words(fg_field *field, fg_context *context,
                             const fg_field_arrays *arrays)
 {
-  static const char *const component[] = {"u", "v", "w"};
-  static const char *const direction[] = {"x", "y", "z"};
-  fg_field_arrays *own = &field->contents;
-  bool copied = true;
-  for (int k = 0; k < 3; ++k) {
-    copied = copied && copy_word(field, &own->velocity_name[k], arrays->velocity_name[k],
-                                 component[k]);
-    copied = copied &&
-             copy_word(field, &own->axis_name[k], arrays->axis_name[k], direction[k]);
-    copied = copied && copy_word(field, &own->axis_units[k], arrays->axis_units[k], "");
+  static const char *const otherwise[FG__FIELD_WORDS] = {"u", "v", "w", "x", "y", "z",
+                                                         "",  "",  "",  "",  ""};
+  fg_field_arrays given = *arrays;
+  for (int n = 0; n < FG__FIELD_WORDS; ++n) {
+    const char *text = *fg__arrays_word(&given, n);
+    if (!text)
+      text = otherwise[n];
+    char *copy = fg__copy_text(text);
+    if (text && !copy)
+      return fg__fail_memory(context, "the field's words", strlen(text) + 1);
+    *fg__arrays_word(&field->contents, n) = copy;
+    if (copy)
+      field->word[field->words++] = copy;
   }
-  copied = copied && copy_word(field, &own->velocity_units, arrays->velocity_units, "");
-  copied = copied && copy_word(field, &own->title, arrays->title, "");
-  copied = copied && copy_word(field, &own->time, arrays->time, NULL);
-  copied = copied && copy_word(field, &own->level, arrays->level, NULL);
-  copied = copied && copy_word(field, &own->projection, arrays->projection, NULL);
-  return copied ? FG_STATUS_OK : fg__fail_memory(context, "the field's words", 0);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title)

@@ -5,6 +5,7 @@
 #include "base/mix.h"
 #include "field/slab.h"
 #include "map/project.h"
+#include "read/isolate/isolate.h"
 #include "read/mapped.h"
 #include "read/title.h"
 
@@ -264,8 +265,11 @@ fg_status fg_input_open(fg_input **out, fg_context *context, const char *input,
   opened->source.kept = &opened->kept;
   if (status == FG_STATUS_OK)
     status = check_choice(context, opened);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK) {
+    if (fg__context_input(context)->isolate)
+      fg__isolation_find(&opened->isolation, opened);
     return FG_STATUS_OK;
+  }
   fg_input_close(opened);
   *out = NULL;
   return status;
@@ -275,6 +279,7 @@ void fg_input_close(fg_input *input)
 {
   if (!input)
     return;
+  fg__isolation_end(&input->isolation);
   fg__kept_close(&input->kept);
   fg__source_close(&input->source);
   fg_inventory_destroy(input->inventory);
@@ -284,18 +289,19 @@ void fg_input_close(fg_input *input)
 static fg_status ask(fg__answer *out, fg_context *context, fg_input *input,
                      const fg__question *question)
 {
-  return fg__input_answer(out, context, input, question);
+  return (input->isolation.library ? fg__isolation_ask
+                                   : fg__input_answer)(out, context, input, question);
 }
 
-fg_status fg_input_vector(const fg_inventory_vector **out, fg_context *context,
-                          fg_input *input)
+fg_status fg_input_inventory(const fg_inventory **out, fg_context *context,
+                             fg_input *input)
 {
   fg__answer answer = {.inventory = input->inventory};
   fg_status status = FG_STATUS_OK;
   if (!input->inventory)
     status = ask(&answer, context, input, &(fg__question){.kind = FG__ASK_VECTOR});
   input->inventory = answer.inventory;
-  *out = fg_inventory_vector_at(input->inventory, 0);
+  *out = input->inventory;
   return status;
 }
 

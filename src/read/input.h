@@ -3,6 +3,17 @@
 #define FG__INPUT_H
 
 #include "read/format.h"
+#include "read/isolate/child.h"
+
+/* A library that may crash on damaged files, in a child process. */
+typedef struct fg__isolation {
+  const char *library; /* NULL: none */
+  size_t bytes;        /* of the files that it reads */
+  fg__child child;
+  bool is_over; /* it crashed, or was ended by its bound: */
+  int signal;
+  unsigned seconds;
+} fg__isolation;
 
 struct fg_input {
   const char *name;
@@ -11,6 +22,8 @@ struct fg_input {
   const fg__format *format; /* NULL: an analytic field */
   fg__kept kept;
   fg_inventory *inventory; /* of the chosen vector, once it was asked for */
+  fg__isolation isolation;
+  void (*decoded)(void); /* called once samples are read, before a map is made; or NULL */
 };
 
 typedef enum fg__question_kind {

@@ -46,13 +46,14 @@ static void the_file_of_an_input_is_opened_once(void **state)
   for (int m = 0; m < 2; ++m) {
     fg_input *input;
     fg_read_defaults defaults;
-    const fg_inventory_vector *vector, *again;
+    const fg_inventory *inventory, *again;
     make_levels(f, modes[m]);
     const fg_read_options options = {.vars = "u,v", .time = 99, .level = 99};
     assert_int_equal(fg_input_open(&input, f->context, f->path, &options), 0);
     assert_int_equal(fg_input_defaults(&defaults, f->context, input), 0);
     unlink(f->path);
-    assert_int_equal(fg_input_vector(&vector, f->context, input), 0);
+    assert_int_equal(fg_input_inventory(&inventory, f->context, input), 0);
+    const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
     assert_int_equal(vector->times, TIMES);
     assert_string_equal(vector->level_value[1].words, "850 hPa");
     for (int time = 0; time < TIMES; ++time)
@@ -62,8 +63,8 @@ static void the_file_of_an_input_is_opened_once(void **state)
         assert_first_sample(field, time, level);
         fg_field_destroy(field);
       }
-    assert_int_equal(fg_input_vector(&again, f->context, input), 0);
-    assert_ptr_equal(again, vector);
+    assert_int_equal(fg_input_inventory(&again, f->context, input), 0);
+    assert_ptr_equal(again, inventory);
     fg_input_close(input);
   }
 }
