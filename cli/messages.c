@@ -157,9 +157,16 @@ int complain_of_memory(const char *what)
   return EXIT_FAILED;
 }
 
-void report_infinite(const char *file, const fg_field *field)
+void report_doubts(const char *file, const fg_field *field)
 {
-  size_t count = fg_field_infinite(field);
+  char words[CLEAN_BYTES];
+  for (const char *line = fg_field_contents(field)->doubts; line && *line;) {
+    const size_t length = strcspn(line, "\n");
+    snprintf(words, sizeof words, "%.*s", (int)length, line);
+    complain("%s: %s", input_name(file), words);
+    line += length + (line[length] == '\n');
+  }
+  const size_t count = fg_field_infinite(field);
   if (count > 0)
     complain("%s: %zu %s infinite and count%s as missing", input_name(file), count,
              count == 1 ? "sample is" : "samples are", count == 1 ? "s" : "");

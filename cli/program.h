@@ -50,9 +50,9 @@ int complain_of_file(const char *path, const char *what);
 /* Prints "out of memory for WHAT"; returns EXIT_FAILED. */
 int complain_of_memory(const char *what);
 
-/* Prints how many samples of a field are missing because they are infinite, if any
- * are. */
-void report_infinite(const char *file, const fg_field *field);
+/* Prints what is unsure of how a field was read, and how many of its samples are missing
+ * because they are infinite. */
+void report_doubts(const char *file, const fg_field *field);
 
 /* Concatenates two texts, or a folder and a name with a slash between. NULL without
  * memory. To be freed. */

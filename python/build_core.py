@@ -158,12 +158,49 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
                          const fg_icons *icons, const fg_score_options *options);
 
 void free(void *);
+
+/* names and attributes, src/terms */
+typedef struct fg__term {
+  const char *name, *standard_name, *long_name, *units;
+  int place, group, file;
+} fg__term;
+typedef struct fg__polar { int sense; ...; } fg__polar;
+typedef struct fg__vector {
+  int component[3];
+  bool is_upright;
+  fg__polar polar;
+  int rank;
+  ...;
+} fg__vector;
+typedef struct fg__vector_rules { bool apart; ...; } fg__vector_rules;
+bool fg__vectors_find(fg__vector **out, size_t *count, const fg__term *terms,
+                      size_t term_count, const fg__vector_rules *rules);
+double fg__unit_factor(const char *from, const char *to);
+bool fg__units_differ(const char *a, const char *b);
+int fg__geographic_role(const fg__term *term);
+int fg__role_of_attributes(const fg__term *term, const char *axis, bool has_positive);
+int fg__role_of_name(const char *name);
+bool fg__term_may_be_index(const fg__term *term);
+typedef struct fg__frame_evidence { bool staggered, angle, on_indices; ...; } fg__frame_evidence;
+int fg__frame_of_terms(char *why, size_t size, const fg__term *u, const fg__term *v,
+                       const fg__frame_evidence *evidence);
+bool fg__counts_cells(const char *dimension);
+const char *mask_name(int n);
+const char *angle_name(int n);
 """
 
 # cffi does not know pointers to constant arrays.
 SOURCE_TEXT = """
 #include <flowgrain/flowgrain.h>
 #include <stdlib.h>
+
+#include "terms/coordinates.h"
+#include "terms/frame.h"
+#include "terms/units.h"
+#include "terms/vectors.h"
+
+static const char *mask_name(int n) { return fg__mask_names[n]; }
+static const char *angle_name(int n) { return fg__angle_names[n][0]; }
 
 static const double *icon_points(const fg_icon *icon) { return icon->points[0]; }
 
@@ -229,7 +266,7 @@ ffibuilder.cdef(CDEF)
 ffibuilder.set_source(
     "flowgrain._core",
     SOURCE_TEXT,
-    include_dirs=[str(SOURCE / "include")],
+    include_dirs=[str(SOURCE / "include"), str(SOURCE / "src")],
     extra_objects=[str(LIBRARY)],
     libraries=["m", "pthread"],
     # nothing of the library is seen outside the module, and only what is called is kept

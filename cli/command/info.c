@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "command/command.h"
 #include "inputs.h"
@@ -80,6 +81,11 @@ static void print_vector(const fg_inventory_vector *vector)
     printf("  components: %s\n", clean_text(text, vector->frame));
   if (fg_map_auto(vector))
     printf("  map: %s\n", fg_map_auto(vector));
+  for (const char *line = vector->doubts; line && *line;) {
+    const int length = (int)strcspn(line, "\n");
+    printf("  doubt: %.*s\n", length, line);
+    line += length + (line[length] == '\n');
+  }
 }
 
 static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
@@ -143,6 +149,8 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddItemToArray(names_of_axes, cJSON_CreateString(axis_of(vector, k)));
   if (vector->frame)
     cJSON_AddStringToObject(object, "frame", vector->frame);
+  if (vector->doubts)
+    cJSON_AddStringToObject(object, "doubts", vector->doubts);
   if (fg_map_auto(vector))
     cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
@@ -155,7 +163,8 @@ typedef struct listing {
   fg_input *input;
   bool is_chosen;
   fg_inventory_vector chosen;
-  int looks; /* times that were read for one with values */
+  fg_field *field; /* the chosen vector as read, whose texts `chosen` has */
+  int looks;       /* times that were read for one with values */
 } listing;
 
 static int count_of(const listing *list)
@@ -216,12 +225,14 @@ static void take_grid(fg_inventory_vector *vector, const fg_field *field)
   vector->missing_share = (double)missing / (double)samples;
   vector->scale = a->scale;
   vector->normal_share = fg_field_normal_share(field);
+  vector->doubts = a->doubts;
 }
 
 static bool chooses(const reading_settings *reading)
 {
   return reading->vars || reading->vars_from || reading->mesh_from || reading->at ||
-         reading->block || reading->slice || reading->frame || reading->scale;
+         reading->block || reading->slice || reading->frame || reading->scale ||
+         reading->missing;
 }
 
 /* So many times are looked at for one that has values. */
@@ -254,7 +265,6 @@ static fg_status read_any(fg_field **out, int *looks, fg_context *context,
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {
-  fg_field *field = NULL;
   fg_status status = fg_input_open(&list->input, context, list->file, options);
   if (!status)
     status = fg_input_inventory(&list->inventory, context, list->input);
@@ -262,10 +272,9 @@ static fg_status list_chosen(listing *list, fg_context *context,
   if (!list->is_chosen)
     return status;
   list->chosen = *fg_inventory_vector_at(list->inventory, 0);
-  status = read_any(&field, &list->looks, context, list->input, list->chosen.times);
+  status = read_any(&list->field, &list->looks, context, list->input, list->chosen.times);
   if (!status)
-    take_grid(&list->chosen, field);
-  fg_field_destroy(field);
+    take_grid(&list->chosen, list->field);
   return status;
 }
 
@@ -318,6 +327,7 @@ int command_info(const void *given)
     print_text(&list);
   if (!status && count_of(&list) == 0)
     code = complain_of_none(context, &list, &options);
+  fg_field_destroy(list.field);
   fg_inventory_destroy(list.all);
   fg_input_close(list.input);
   fg_context_destroy(context);

@@ -134,7 +134,7 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
     return EXIT_FAILED; /* the pictures of a series are in its folder */
   fg_status status = fg_field_read(&run->field, context, input, &reading);
   if (!status)
-    report_infinite(input, run->field);
+    report_doubts(input, run->field);
   if (!status && !is_on_another_map(settings) &&
       !report_is_of_field(report, run->folder, input, run->field)) {
     fputs("Icons are drawn on the field that they were made of.\n", stderr);

@@ -51,6 +51,10 @@ static const option_entry input_entries[] = {
              "between (NetCDF)"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
      .help = "variable that is zero (or negative, or missing) outside the domain"},
+    {"missing", 0, "VALUES", DESCRIBERS, OPTION_TEXT, READING(missing),
+     .help = "numbers that stand for missing values, besides those that the file "
+             "declares: -9999,1e20; or none: every number is a value [a number that "
+             "recurs apart from all others is refused]"},
     {"format", 0, "NAME", INPUTS, OPTION_TEXT, INPUT(format),
      .help = "read INPUT as netcdf, vtk, table or another format by its name [found from "
              "the content]"},

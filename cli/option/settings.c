@@ -18,6 +18,7 @@ fg_read_options settings_reading(const reading_settings *settings)
       .time = settings->time,
       .level = settings->level,
       .mask = settings->mask,
+      .missing = settings->missing,
       .map = &settings->map,
       .scale = (fg_scale)settings->scale,
       .block = settings->block,

@@ -34,7 +34,7 @@ typedef struct input_settings {
 /* A field to read: INPUT and options that select from it. */
 typedef struct reading_settings {
   const char *input;
-  const char *vars, *vars_from, *mesh_from, *mask;
+  const char *vars, *vars_from, *mesh_from, *mask, *missing;
   const char *at;                     /* samples of further dimensions */
   const char *time_text, *level_text; /* as given; NULL: not given */
   int time, level;                    /* indices, set when the input is known */

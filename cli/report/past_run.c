@@ -177,6 +177,7 @@ static void fill_reading(cli_report *out, const cJSON *input)
   out->reading.mesh_from = text_of(input, "mesh_from");
   out->reading.at = text_of(input, "at");
   out->reading.mask = text_of(input, "mask");
+  out->reading.missing = text_of(input, "missing");
   out->reading.block = text_of(input, "block");
   out->reading.slice = text_of(input, "slice");
   out->reading.time = (int)number_of(input, "time", 0.0, 1e9, 0.0);

@@ -57,6 +57,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(input, "vars", settings->reading.vars);
   add_text(input, "at", settings->reading.at);
   add_text(input, "mask", settings->reading.mask);
+  add_text(input, "missing", settings->reading.missing);
   add_text(input, "block", settings->reading.block);
   add_text(input, "slice", settings->reading.slice);
   cJSON_AddNumberToObject(input, "time", settings->reading.time);
@@ -90,6 +91,7 @@ static void add_input(cJSON *root, const run_facts *facts)
   add_text(read, "title", field->title);
   add_text(read, "time", field->time);
   add_text(read, "level", field->level);
+  add_text(read, "doubts", field->doubts);
   if (fg_field_normal_share(facts->field) > 0.0)
     cJSON_AddNumberToObject(read, "normal_share", fg_field_normal_share(facts->field));
 }

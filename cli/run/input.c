@@ -67,7 +67,7 @@ int input_join(cli_run *run)
     return complain_of_field(run->context, status, run->input, &run->settings->reading);
   if (ranks_leader()) {
     print_choices(run);
-    report_infinite(run->settings->reading.input, run->field);
+    report_doubts(run->settings->reading.input, run->field);
   }
   fg_input_close(run->input);
   run->input = NULL;

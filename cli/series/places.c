@@ -141,7 +141,7 @@ int places_read(fg_field **out, fg_context *context, const reading_settings *set
   if (status)
     code = complain_of_field(context, status, places.input, settings);
   else if (!code)
-    report_infinite(settings->input, *out);
+    report_doubts(settings->input, *out);
   places_clear(&places);
   return code;
 }

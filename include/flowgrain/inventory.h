@@ -44,6 +44,7 @@ typedef struct fg_inventory_vector {
   int usual_level;                               /* fg_read_defaults.level */
   const char *absent;                            /* fg_read_defaults.absent; NULL: none */
   const char *chosen;       /* the samples of fg_read_options.at; NULL: none */
+  const char *doubts;       /* fg_field_arrays.doubts of reading it; NULL: none */
   const char *axis_name[3]; /* of a plane in space; NULL: x, y, z */
 } fg_inventory_vector;
 

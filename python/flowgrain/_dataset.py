@@ -1,148 +1,123 @@
 """Components and coordinates of a dataset of xarray, by their names and attributes.
 
-The rules are the program's (src/read/netcdf/pairs.c and roles.c).
+The rules are the library's (src/terms), so that they are the program's.
 """
 
 from __future__ import annotations
 
-import re
-from typing import Any, Iterator
+from itertools import count
+from typing import Any, NamedTuple
 
 import xarray as xr
 
-WORDS = (("u", "v"), ("x", "y"), ("eastward", "northward"), ("east", "north"),
-         ("zonal", "meridional"))  # fmt: skip
-PARTS = (("eastward", "northward"), ("zonal", "meridional"), ("vozo", "vome"), ("sozo", "some"),
-         ("east", "north"))  # fmt: skip
-# of standard names: a velocity, another vector, no vector
-VELOCITY = ("wind", "velocity", "drift")
-OTHER = ("stress", "shear", "flux", "tendency", "transport", "product", "momentum", "force",
-         "acceleration", "gradient", "displacement")  # fmt: skip
-NO_VECTOR = ("coordinate", "grid_index", "square_of", "derivative", "longitude", "latitude",
-             "inverse_of", "cell_", "index_at", "status_flag", "quality_flag",
-             "standard_error")  # fmt: skip
-# derived from a component, but none
-SPOILT = re.compile(
-    r"(?i)(?:^|_)[uv]?(?:sd|se|unc|var|num|nobs|lon|lat|count|rms|rmse|area|angle|index|longitude"
-    r"|latitude|weight|variance|status|(?:err|qc|qartod|flag|std|uncert|qual|mask|bnds|bounds)\w*)"
-    r"(?=_|$)")
-POINTS = r"_?(?:rho|psi|[tuvwcf]|\d+)"  # of a grid
-SPEEDS = re.compile(r"(?i)^\s*(?:|(?:[cmk]?m|knots?|kts?|miles?|feet|ft|meters?|metres?)\b.*)$")
+from ._core import ffi, lib
+from ._library import text
+
+ROLES = {0: "x", 1: "y"}
 
 
-def _patterns(name: str) -> Iterator[tuple[str, int]]:
-    """Patterns of a component's name, with # for the part that denotes it, and component 0 or 1."""
-    for letters in re.finditer(r"[A-Za-z]+", name):
-        word = letters.group().lower()
-        start, end = letters.span()
-        whole = (start == 0 or not name[start - 1].isalpha()) and (
-            end == len(name) or not name[end].isalpha())
-        for pair in WORDS:
-            if whole and word in pair:
-                yield f"w{name[:start]}#{name[end:]}", pair.index(word)
-        if len(word) > 1:
-            if word[0] in "uv":
-                yield f"f{name[:start]}#{name[start + 1:]}", "uv".index(word[0])
-            for last in ("uv", "xy"):
-                if word[-1] in last:
-                    yield f"l{name[:end - 1]}#{name[end:]}", last.index(word[-1])
-    for pair in PARTS:
-        for k in (0, 1):
-            at = name.lower().find(pair[k])
-            if at >= 0:
-                rest = name[at + len(pair[k]):]
-                if pair[0] in ("vozo", "sozo"):  # NEMO: also differ at the end
-                    rest = rest[:-1] + "#"
-                yield f"p{name[:at]}#{rest}", k
+class Terms(NamedTuple):
+    """Variables as the library's functions take them."""
+
+    array: Any  # of fg__term
+    texts: list[Any]  # that it points to
 
 
-def _standard_pattern(variable: Any) -> tuple[int, str, int] | None:
-    """Rank, pattern of the standard name, and the component."""
-    name = str(variable.attrs.get("standard_name", ""))
-    if any(word in name for word in NO_VECTOR):
-        return None
-    other = any(word in name for word in OTHER)
-    if not other and not any(word in name for word in VELOCITY):
-        return None
-    name = re.sub(r"_at_[uv]_location.*", "", name)
-    tokens = name.split("_")
-    for n, token in enumerate(tokens):
-        for pair in WORDS:
-            if token in pair:
-                key = "_".join([*tokens[:n], "#", *tokens[n + 1:]])
-                return (2 if other else 0), key, pair.index(token)
-    return None
+def _number(numbers: dict[Any, int], key: Any) -> int:
+    return numbers.setdefault(key, len(numbers))
+
+
+def terms(variables: dict[str, Any]) -> Terms:
+    """Names and attributes of variables by name.
+
+    Those with the same dimensions are at the same points; on the faces of cells components of one
+    vector differ in the plane's dimensions.
+    """
+    out = Terms(ffi.new("fg__term[]", max(1, len(variables))), [])
+    places: dict[Any, int] = {}
+    groups: dict[Any, int] = {}
+    for term, (name, variable) in zip(out.array, variables.items()):
+        for attribute in ("name", "standard_name", "long_name", "units"):
+            said = name if attribute == "name" else variable.attrs.get(attribute)
+            if said is not None:
+                out.texts.append(ffi.new("char[]", str(said).encode("utf-8", "replace")))
+                setattr(term, attribute, out.texts[-1])
+        term.place = _number(places, frozenset(variable.dims))
+        term.group = _number(groups, variable.dims[:-2])
+        term.file = -1
+    return out
 
 
 def find_pair(dataset: xr.Dataset) -> tuple[str, str]:
     """Names of the components of the velocity: by CF's standard names, else by their names."""
-    found: dict[tuple[int, str, tuple[Any, ...]], list[list[str]]] = {}
-
-    def add(rank: int, key: str, name: str, component: int) -> None:
-        # on the faces of cells they differ in the plane's dimensions
-        dims = dataset[name].dims[:-2]
-        entry = found.setdefault((rank, key, dims), [[], []])[component]
-        if name not in entry:
-            entry.append(name)
-
-    for name, variable in dataset.data_vars.items():
-        if variable.ndim < 2 or variable.dtype.kind not in "iuf":
-            continue
-        standard = _standard_pattern(variable)
-        if standard is not None:
-            add(standard[0], standard[1], str(name), standard[2])
-        if not SPOILT.search(str(name)):
-            speed = bool(SPEEDS.match(str(variable.attrs.get("units", ""))))
-            for key, component in _patterns(str(name)):
-                add(1 if speed else 3, key, str(name), component)
-    pairs: list[tuple[int, str, str]] = []
-    for (rank, _, _), (first, second) in found.items():
-        if len(first) == len(second) == 1:
-            pairs.append((rank, first[0], second[0]))
-        elif rank in (0, 2):  # several of one standard name, as u10 and u100: distinguished by names
-            pairs += [(rank, a, b) for a in first for b in second
-                      if {k for k, c in _patterns(a) if c == 0} & {k for k, c in _patterns(b) if c}]
-    if not pairs:
+    variables = {str(k): v for k, v in dataset.data_vars.items()
+                 if v.ndim >= 2 and v.dtype.kind in "iuf"}
+    names, found = terms(variables), ffi.new("fg__vector **")
+    all_found, rules = ffi.new("size_t *"), ffi.new("fg__vector_rules *")
+    if not lib.fg__vectors_find(found, all_found, names.array, len(variables), rules):
+        raise MemoryError("flowgrain: no memory for the names of variables")
+    vectors = [found[0][i] for i in range(all_found[0])]
+    known = [(v.rank, *(list(variables)[v.component[k]] for k in (0, 1)))
+             for v in vectors if not v.is_upright and v.polar.sense == 0]
+    lib.free(found[0])
+    if not known:
         raise ValueError("no pair of variables is known as a velocity by standard_name or name; "
                          f"give u and v, of {', '.join(map(str, dataset.data_vars)) or 'none'}")
-    best = min(pairs, key=lambda pair: pair[0])
-    return best[1], best[2]
+    best = [pair[1:] for pair in known if pair[0] == known[0][0]]
+    if len(best) > 1:
+        raise ValueError(f"{len(best)} vectors could be meant: "
+                         f"{' | '.join(','.join(pair) for pair in best)}; give u and v")
+    return best[0]
 
 
 def role_of(coordinate: Any) -> str | None:
     """The axis of a coordinate: "lon" or "lat" in degrees, else "x" or "y"; None: neither."""
-    attrs = coordinate.attrs
-    standard = str(attrs.get("standard_name", ""))
-    units = str(attrs.get("units", "")).lower().replace(" ", "_")
-    name = str(coordinate.name).lower()
-    if "grid_index" in standard:
+    term = terms({str(coordinate.name): coordinate})
+    if "grid_index" in str(coordinate.attrs.get("standard_name", "")):
         return None
-    for role, words, unit, axis in (
-        ("lon", ("lon", "longitude", "nav_lon"), ("degrees_east", "degree_east", "degrees_e"), "X"),
-        ("lat", ("lat", "latitude", "nav_lat"), ("degrees_north", "degree_north", "degrees_n"),
-         "Y"),
-    ):
-        if standard == words[1] or units in unit:
-            return role
-        if not standard and (name in words or re.fullmatch(words[0] + POINTS, name)):
-            return role
-        letter = axis.lower()
-        if attrs.get("axis") == axis or standard == f"projection_{letter}_coordinate":
-            return letter
-        if name in (letter, f"{letter}c", "rlon" if letter == "x" else "rlat"):
-            return letter
-    return None
+    geographic = lib.fg__geographic_role(term.array)
+    if geographic in ROLES:
+        return "lon" if geographic == 0 else "lat"
+    axis = str(coordinate.attrs.get("axis", "")).encode()
+    role = lib.fg__role_of_attributes(term.array, axis, "positive" in coordinate.attrs)
+    if role < 0:
+        role = lib.fg__role_of_name(term.array[0].name)
+    return ROLES.get(role)
+
+
+def _units(variable: Any) -> bytes:
+    return str(variable.attrs.get("units", "")).encode("utf-8", "replace")
+
+
+def eastward(coordinate: Any) -> Any:
+    """A coordinate with its numbers growing eastward and northward (degrees_west, degrees_south)."""
+    west = any(lib.fg__unit_factor(_units(coordinate), unit) < 0
+               for unit in (b"degrees_east", b"degrees_north"))
+    return coordinate.copy(data=-coordinate.values) if west else coordinate
+
+
+def check_units(u: Any, v: Any) -> None:
+    """Refuses components in two units."""
+    if lib.fg__units_differ(_units(u), _units(v)):
+        raise ValueError(f"{u.name} is in {u.attrs['units']}, {v.name} in {v.attrs['units']}")
+
+
+def _may_be_index(coordinate: Any) -> bool:
+    return "axis" not in coordinate.attrs and lib.fg__term_may_be_index(
+        terms({str(coordinate.name): coordinate}).array)
 
 
 def find_coordinates(u: xr.DataArray) -> tuple[Any, Any, bool]:
     """Coordinates along x and y, and whether they are longitude and latitude.
 
-    Those of one dimension are preferred, then those of two; without any, the last two dimensions.
+    Those of one dimension are preferred, but for what may be mere indices, then those of two;
+    without any, the last two dimensions.
     """
-    for count in (1, 2):
+    for rank, indices in ((1, False), (2, True), (1, True)):
         roles: dict[str, Any] = {}
         for coordinate in u.coords.values():
-            if coordinate.ndim == count and coordinate.size > 1:
+            if coordinate.ndim == rank and coordinate.size > 1 and (
+                    indices or not _may_be_index(coordinate)):
                 role = role_of(coordinate)
                 if role is not None:
                     roles.setdefault(role, coordinate)
@@ -150,3 +125,20 @@ def find_coordinates(u: xr.DataArray) -> tuple[Any, Any, bool]:
             if x in roles and y in roles:
                 return roles[x], roles[y], degrees
     return u[u.dims[-1]], u[u.dims[-2]], False
+
+
+def frame_by_terms(u: Any, v: Any, angle: bool, staggered: bool) -> str | None:
+    """"east": components along east and north; "grid": along the grid; None: nothing says it."""
+    names, why = terms({str(u.name): u, str(v.name): v}), ffi.new("char[]", 256)
+    counted = all(lib.fg__counts_cells(str(d).encode()) for d in u.dims[-2:])
+    evidence = ffi.new("fg__frame_evidence *", {"staggered": staggered, "angle": angle,
+                                                "on_indices": counted})
+    frame = lib.fg__frame_of_terms(why, len(why), names.array, names.array + 1, evidence)
+    return {1: "east", -1: "grid"}.get(frame)
+
+
+def _names(name_at: Any) -> list[str]:
+    return [text(name) for name in iter(map(name_at, count()).__next__, ffi.NULL)]
+
+
+MASKS, ANGLES = _names(lib.mask_name), _names(lib.angle_name)

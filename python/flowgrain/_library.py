@@ -59,8 +59,8 @@ class Context:
         return results[0]
 
     def _exception(self, status: int) -> Exception:
-        message = _text(lib.fg_context_message(self.handle))
-        hint = _text(lib.fg_context_hint(self.handle))
+        message = text(lib.fg_context_message(self.handle))
+        hint = text(lib.fg_context_hint(self.handle))
         lib.fg_context_clear(self.handle)
         if status == lib.FG_STATUS_MEMORY:
             return MemoryError(message)
@@ -83,7 +83,8 @@ class Context:
         return ffi.gc(out[0], destroy)
 
 
-def _text(characters: Any) -> str:
+def text(characters: Any) -> str:
+    """A text of the library."""
     return ffi.string(characters).decode("utf-8", "replace")
 
 
@@ -96,4 +97,4 @@ def copy(pointer: Any, shape: tuple[int, ...], dtype: Any) -> np.ndarray:
 
 def version() -> str:
     """The library's version."""
-    return _text(lib.fg_version())
+    return text(lib.fg_version())

@@ -10,16 +10,12 @@ from typing import Any, Hashable
 import numpy as np
 import xarray as xr
 
-from ._dataset import role_of
+from ._dataset import ANGLES, MASKS, check_units, eastward, frame_by_terms, role_of
 
 FRAMES = ("auto", "east", "grid")
 # on which side of a centre the face of the same index lies
 SIDES = {"xq": 1, "yq": 1, "xi_u": 1, "eta_v": 1, "i_g": -1, "j_g": -1, "XG": -1, "YG": -1,
          "XU": -1, "YV": -1}  # fmt: skip
-MASKS = ("wetdry_mask_rho", "mask_rho", "tmask", "maskC", "hFacC", "wet", "wet_c")
-ANGLES = ("angle", "ANGLE", "Angle", "ANGLET", "anglet", "grid_angle", "gridrot_0", "pang",
-          "COSALPHA", "AngleCS", "CS", "cos_rot", "cosrot")  # fmt: skip
-COUNTING = ("i", "j", "ni", "nj")  # dimensions
 
 
 def centred(dataset: xr.Dataset, u: Any, v: Any) -> tuple[Any, Any, bool]:
@@ -28,6 +24,7 @@ def centred(dataset: xr.Dataset, u: Any, v: Any) -> tuple[Any, Any, bool]:
     Of Arakawa's C grid these are the means of two faces; a face without a value beside one that has
     one is a wall.
     """
+    check_units(u, v)
     if set(u.dims) == set(v.dims):
         return u, v.transpose(*u.dims), False
     if u.ndim < 2 or v.ndim != u.ndim or set(u.dims[:-2]) != set(v.dims[:-2]):
@@ -113,28 +110,13 @@ def positions(dataset: xr.Dataset, dims: tuple[Hashable, ...]) -> list[np.ndarra
         if variable.ndim == 2 and set(variable.dims) == set(dims):
             role = role_of(dataset[name])
             if role in ("lon", "lat"):
-                found.setdefault(role, dataset[name].transpose(*dims).values.astype(np.float64))
+                found.setdefault(role, eastward(dataset[name]).transpose(*dims).values.astype(np.float64))
     return [found["lon"], found["lat"]] if len(found) == 2 else None
 
 
 def frame_of(dataset: xr.Dataset, u: Any, v: Any, staggered: bool) -> str | None:
     """"east": components along east and north; "grid": along the grid; None: nothing says it."""
-    standard = str(u.attrs.get("standard_name", ""))
-    if standard.startswith("grid_"):
-        return "grid"
-    if "eastward" in standard or "northward" in standard:
-        return "east"
-    if standard.startswith(("x_", "y_")) or "_x_" in standard or "_y_" in standard:
-        return "grid"
-    angle = any(name in dataset for name in ANGLES)
-    words = " ".join(f"{c.name} {c.attrs.get('long_name', '')}" for c in (u, v)).lower()
-    geographic = any(w in words for w in ("zonal", "meridional", "eastward", "northward"))
-    if geographic and not angle and not staggered:
-        return "east"
-    counted = all(str(d).startswith(("xi_", "eta_")) or d in COUNTING for d in u.dims[-2:])
-    if staggered or angle or str(u.name).startswith(("vozo", "sozo")) or counted:
-        return "grid"
-    return None
+    return frame_by_terms(u, v, any(name in dataset for name in ANGLES), staggered)
 
 
 def turned(u: np.ndarray, v: np.ndarray, longitude: np.ndarray, latitude: np.ndarray,

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ._arrows import Arrows, _choice, arrows
-from ._dataset import find_coordinates, find_pair, role_of
+from ._dataset import eastward, find_coordinates, find_pair, role_of
 from ._model import FRAMES, centred, frame_of, positions, turned
 from ._plane import _closes
 
@@ -50,6 +50,7 @@ class DatasetFlowgrain:
         else:
             px, py = self._dataset[x], self._dataset[y]
             degrees = role_of(px) == "lon" and role_of(py) == "lat"
+        px, py = eastward(px), eastward(py)
         plane = [*py.dims, *(d for d in px.dims if d not in py.dims)]
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "

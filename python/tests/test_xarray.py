@@ -1,3 +1,4 @@
+import pathlib
 import subprocess
 import sys
 
@@ -8,6 +9,7 @@ import flowgrain
 from conftest import vortices
 
 xr = pytest.importorskip("xarray")
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def dataset(**names):
@@ -16,18 +18,23 @@ def dataset(**names):
                       {"x": x, "y": y})
 
 
-@pytest.mark.parametrize("u, v", [
-    ("u", "v"), ("u10", "v10"), ("10u", "10v"), ("uwnd", "vwnd"), ("UGRD", "VGRD"),
-    ("U_GRD_6_ISBL", "V_GRD_6_ISBL"), ("vozocrtx", "vomecrty"), ("windu", "windv"), ("vx", "vy"),
-    ("water_u", "water_v"), ("UVEL", "VVEL"), ("windEastward", "windNorthward"),
-])
-def test_components_are_found_by_name(u, v):
+# every format of the program gives the same answers (src/read/names_test.c)
+NAMES = [line.split(" = ") for line in (ROOT / "tests" / "vectors.txt").read_text().splitlines()
+         if " = " in line and line[0] != "#"]
+
+
+@pytest.mark.parametrize("names, wanted", NAMES)
+def test_components_are_found_by_name(names, wanted):
     from flowgrain._dataset import find_pair
 
-    found = dataset(u=u, v=v)
-    found["temperature"] = found[u]
-    found[u + "_qc"], found[v + "_err"] = found[u], found[v]
-    assert find_pair(found) == (u, v)
+    u, x, y = vortices(5, 4)[1:]
+    found = xr.Dataset({name: (("lat", "lon"), u) for name in names.split()},
+                       {"lon": x, "lat": y})
+    if wanted in "-?":
+        with pytest.raises(ValueError, match="no pair" if wanted == "-" else "could be meant"):
+            find_pair(found)
+    else:
+        assert ",".join(find_pair(found)) == wanted
 
 
 def test_components_are_found_by_standard_name():
@@ -66,8 +73,8 @@ def test_two_heights_of_one_standard_name():
     for name in found.data_vars:
         way = "eastward" if name[0] == "u" else "northward"
         found[name].attrs["standard_name"] = way + "_wind"
-    u, v = find_pair(found)
-    assert (u[1:], u[0], v[0]) == (v[1:], "u", "v")
+    with pytest.raises(ValueError, match=r"2 vectors could be meant: u100,v100 \| u10,v10;"):
+        find_pair(found)
 
 
 def test_arrows_are_those_of_the_arrays():
@@ -217,7 +224,22 @@ def test_components_along_the_grid_are_turned():
         plane.drop_vars(["x", "y"]).flowgrain.arrows("a", "b", n=3)
 
 
+def test_longitudes_may_count_to_the_west():
+    found = dataset().rename(x="lon", y="lat")
+    found["lat"].attrs["units"] = "degrees_north"
+    found["lon"].attrs["units"] = "degrees_east"
+    west = found.assign_coords(lon=-found["lon"])
+    west["lon"].attrs["units"] = "degrees_west"
+    for named in ({}, {"x": "lon", "y": "lat"}):
+        one, other = (d.flowgrain.arrows(n=4, **named) for d in (found, west))
+        assert [a.path.tolist() for a in one] == [a.path.tolist() for a in other]
+
+
 def test_refusals():
+    mixed = dataset()
+    mixed["u"].attrs["units"], mixed["v"].attrs["units"] = "m s-1", "cm/s"
+    with pytest.raises(ValueError, match="u is in m s-1, v in cm/s"):
+        mixed.flowgrain.arrows()
     with pytest.raises(ValueError, match="both u and v"):
         dataset().flowgrain.arrows("u")
     with pytest.raises(ValueError, match="both x and y"):

@@ -332,7 +332,8 @@ const char **fg__arrays_word(fg_field_arrays *arrays, int n)
                                                &arrays->title,
                                                &arrays->time,
                                                &arrays->level,
-                                               &arrays->projection};
+                                               &arrays->projection,
+                                               &arrays->doubts};
   return place[n];
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/context.h"
 
-enum { FG__FIELD_CORNERS = 8, FG__FIELD_WORDS = 14 };
+enum { FG__FIELD_CORNERS = 8, FG__FIELD_WORDS = 15 };
 
 /* One axis as the lookup sees it: `cells` intervals between cells + 1 coordinates; on a
  * periodic axis the last interval ends at the first sample's repetition. */

@@ -8,8 +8,7 @@ const double fg__field_largest_speed = 1e15;
 static const float CODES[] = {-999.0F,  -9999.0F, -99999.0F, -999.9F,
                               -9999.9F, -999.99F, -32767.0F, -32768.0F,
                               999.9F,   9999.0F,  9999.9F,   99999.0F};
-static const char HINT[] =
-    "declare it as missing (NetCDF: _FillValue), or put NaN in its place";
+static const char HINT[] = "--missing=%g takes it for missing";
 static const float SMALLEST_CODE = 999.0F; /* in size */
 
 bool fg__is_missing_code(const float *const velocity[3], int dimension, size_t i)
@@ -36,7 +35,7 @@ fg_status fg__refuse_missing_codes(fg_context *context, const char *path,
              "%s: both components are %g at a sample, which stands for missing data in "
              "many files",
              path, (double)velocity[0][i]);
-    fg__hint(context, "%s", HINT);
+    fg__hint(context, HINT, (double)velocity[0][i]);
     return FG_STATUS_FILE_FORMAT;
   }
   return FG_STATUS_OK;
@@ -68,7 +67,7 @@ fg_status fg__field_fail_speed(const fg_field *field, fg_context *context, int k
                "field: %s is %g at sample %s; speeds up to %g are taken",
                field->contents.velocity_name[k], value, place_of(place, field, i),
                fg__field_largest_speed);
-  fg__hint(context, "is it a fill value that is not declared as missing?");
+  fg__hint(context, "--missing=%g takes it for missing", value);
   return status;
 }
 
@@ -81,7 +80,6 @@ fg_status fg__field_fail_code(const fg_field *field, fg_context *context, double
       "field: every component is %g at sample %s, which stands for missing data in many "
       "files",
       value, place_of(place, field, i));
-  fg__hint(context,
-           "declare it as missing (NetCDF: _FillValue), or put NaN in its place");
+  fg__hint(context, HINT, value);
   return status;
 }

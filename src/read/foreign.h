@@ -12,4 +12,7 @@ typedef struct fg__foreign {
 /* What the bytes of a file that has no format here begin; NULL: not known. */
 const fg__foreign *fg__foreign_find(const unsigned char *bytes, size_t size);
 
+/* The same of an HDF5 file, which NetCDF's decoder would take. */
+const fg__foreign *fg__foreign_hdf5(const unsigned char *bytes, size_t size);
+
 #endif

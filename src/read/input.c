@@ -127,6 +127,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   uint64_t key = mix_text(0, input);
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
+  key = mix_text(key, options->missing);
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
@@ -280,7 +281,8 @@ void fg_input_close(fg_input *input)
   if (!input)
     return;
   fg__isolation_end(&input->isolation);
-  fg__kept_close(&input->kept);
+  if (input->kept.data)
+    input->kept.close(input->kept.data);
   fg__source_close(&input->source);
   fg_inventory_destroy(input->inventory);
   free(input);

@@ -1,4 +1,5 @@
 #include "base/feature.h"
+#include "decode/signature.h"
 #include "read/foreign.h"
 #include "read/format.h"
 
@@ -87,9 +88,12 @@ static fg_status find_format(const fg__format **out, fg_context *context,
   if (wanted)
     return find_named(out, context, wanted, source);
   *out = fg__format_find(source->bytes, source->size);
-  const fg__foreign *foreign = !*out || *out == &fg__format_table
-                                   ? fg__foreign_find(source->bytes, source->size)
-                                   : NULL;
+  const fg__foreign *foreign = NULL;
+  if (!*out || *out == &fg__format_table)
+    foreign = fg__foreign_find(source->bytes, source->size);
+  else if (*out == &fg__format_netcdf &&
+           fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
+    foreign = fg__foreign_hdf5(source->bytes, source->size);
   if (foreign) {
     fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is %s, which cannot be read",
              source->path, foreign->name);
@@ -124,4 +128,18 @@ fg_status fg__source_open_known(fg__source *out, const fg__format **format,
   if (status == FG_STATUS_OK && (*format)->is_absent)
     status = fg__fail_absent(context, out->path, (*format)->feature);
   return status;
+}
+
+fg_status fg__check_one_file(fg_context *context, const fg__source *source,
+                             const fg_read_options *options, const char *files)
+{
+  if (options->vars_from)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file with the other component cannot be used with %s",
+                    source->path, files);
+  if (options->level != 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: level %d is asked for, but the file holds one only, number 0",
+                    source->path, options->level);
+  return FG_STATUS_OK;
 }

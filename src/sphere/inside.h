@@ -8,7 +8,7 @@
 #include "base/vector.h"
 #include "sphere/sphere.h"
 
-enum { FG__SPHERE_FACES = 6, FG__SPHERE_WORDS = 8 };
+enum { FG__SPHERE_FACES = 6, FG__SPHERE_WORDS = 9 };
 
 /* Points of a place that no sample is at: the poles. */
 enum { FG__SPHERE_SOUTH = -1, FG__SPHERE_NORTH = -2 };

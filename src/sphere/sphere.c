@@ -45,7 +45,8 @@ static bool keep_texts(fg__sphere *sphere, const fg_field_arrays *words)
          keep_text(sphere, &own->title, words->title) &&
          keep_text(sphere, &own->time, words->time) &&
          keep_text(sphere, &own->level, words->level) &&
-         keep_text(sphere, &own->projection, words->projection);
+         keep_text(sphere, &own->projection, words->projection) &&
+         keep_text(sphere, &own->doubts, words->doubts);
 }
 
 fg_status fg__sphere_begin(fg__sphere *sphere, fg_context *context, size_t points,

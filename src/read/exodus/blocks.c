@@ -64,7 +64,7 @@ static void name_block(fg__exodus_block *block, const fg__exodus *e)
 {
   double identity = block->number;
   const size_t first = (size_t)block->number - 1, one = 1;
-  const fg__nc_variable *v = fg__nc_find(&e->file, "eb_prop1");
+  const fg__variable *v = fg__dataset_find(&e->file, "eb_prop1");
   fg__exodus_text(block->name, e, "eb_names", first);
   if (block->name[0])
     return;
@@ -75,7 +75,7 @@ static void name_block(fg__exodus_block *block, const fg__exodus *e)
 
 static fg_status describe_block(fg__exodus_block *block, const fg__exodus *e)
 {
-  const fg__nc_variable *v = block->nodes;
+  const fg__variable *v = block->nodes;
   char type[FG__EXODUS_NAME];
   if (v->rank != 2)
     return fg__fail(e->file.context, FG_STATUS_FILE_FORMAT,
@@ -83,7 +83,7 @@ static fg_status describe_block(fg__exodus_block *block, const fg__exodus *e)
                     v->path, v->name, v->rank);
   block->cells = e->file.dimensions[v->dimension[0]].length;
   block->per_cell = e->file.dimensions[v->dimension[1]].length;
-  fg__nc_text(v, "elem_type", type, sizeof type);
+  fg__attribute_text(v, "elem_type", type, sizeof type);
   fg_status status = fg__exodus_check(e, v, (size_t[2]){0, 0},
                                       (size_t[2]){block->cells, block->per_cell}, 2);
   if (status != FG_STATUS_OK)
@@ -107,7 +107,7 @@ static fg_status fail_name(const fg__exodus *e, const char *wanted, size_t count
     used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
                              e->block[i].name);
   fg__fail(e->file.context, FG_STATUS_ARGUMENT, "%s: there is no block \"%.100s\"",
-           e->file.paths[0], wanted);
+           e->file.file[0].path, wanted);
   fg__hint(e->file.context, "the blocks are: %s", names);
   return FG_STATUS_ARGUMENT;
 }
@@ -116,10 +116,10 @@ static fg_status fail_name(const fg__exodus *e, const char *wanted, size_t count
 static fg_status list_blocks(fg__exodus *e)
 {
   const size_t count = fg__exodus_length(e, "num_el_blk");
-  if (count > e->file.sizes[0] / 4) /* bytes of its status and of its identity */
+  if (count > e->file.file[0].size / 4) /* bytes of its status and of its identity */
     return fg__fail(e->file.context, FG_STATUS_FILE_FORMAT,
-                    "%s: %zu blocks of elements in a file of %zu bytes", e->file.paths[0],
-                    count, e->file.sizes[0]);
+                    "%s: %zu blocks of elements in a file of %zu bytes",
+                    e->file.file[0].path, count, e->file.file[0].size);
   e->block = fg__allocate(count, sizeof *e->block);
   if (!e->block)
     return fg__fail_memory(e->file.context, "blocks", count * sizeof *e->block);
@@ -127,8 +127,8 @@ static fg_status list_blocks(fg__exodus *e)
     char name[32];
     snprintf(name, sizeof name, "connect%zu", i + 1);
     fg__exodus_block *block = &e->block[e->blocks];
-    *block =
-        (fg__exodus_block){.nodes = fg__nc_find(&e->file, name), .number = (int)i + 1};
+    *block = (fg__exodus_block){.nodes = fg__dataset_find(&e->file, name),
+                                .number = (int)i + 1};
     if (!block->nodes)
       continue;
     name_block(block, e);
@@ -150,14 +150,14 @@ fg_status fg__exodus_blocks(fg__exodus *e, const char *wanted)
     e->block[e->blocks++] = block;
     if (status == FG_STATUS_OK && block.cells > INT_MAX - e->cells)
       status = fg__fail(e->file.context, FG_STATUS_UNSUPPORTED, "%s: more than %d cells",
-                        e->file.paths[0], INT_MAX);
+                        e->file.file[0].path, INT_MAX);
     e->cells += block.cells;
   }
   if (status != FG_STATUS_OK || e->blocks > 0)
     return status;
   return wanted ? fail_name(e, wanted, count)
                 : fg__fail(e->file.context, FG_STATUS_FILE_FORMAT,
-                           "%s: none of its blocks has elements", e->file.paths[0]);
+                           "%s: none of its blocks has elements", e->file.file[0].path);
 }
 
 /* Nodes of the cells of a block, from 0, in VTK's order. */

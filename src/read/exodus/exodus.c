@@ -40,12 +40,11 @@ size_t fg__exodus_length(const fg__exodus *e, const char *name)
   return 0;
 }
 
-fg_status fg__exodus_check(const fg__exodus *e, const fg__nc_variable *v,
+fg_status fg__exodus_check(const fg__exodus *e, const fg__variable *v,
                            const size_t *first, const size_t *count, int rank)
 {
   double all = 1.0;
-  bool fits =
-      v->rank == rank && v->type != NC_CHAR && v->type >= NC_BYTE && v->type <= NC_UINT64;
+  bool fits = v->rank == rank && fg__is_number(v);
   for (int k = 0; k < rank && fits; ++k) {
     const size_t length = e->file.dimensions[v->dimension[k]].length;
     fits = first[k] <= length && count[k] <= length - first[k];
@@ -55,40 +54,33 @@ fg_status fg__exodus_check(const fg__exodus *e, const fg__nc_variable *v,
     return fg__fail(e->file.context, FG_STATUS_FILE_FORMAT,
                     "%s: '%.100s' has another shape than the nodes, elements or times",
                     v->path, v->name);
-  if (all / MOST_TIMES_LARGER > (double)e->file.sizes[0])
+  if (all / MOST_TIMES_LARGER > (double)e->file.file[0].size)
     return fg__fail(e->file.context, FG_STATUS_FILE_FORMAT,
                     "%s: '%.100s' has %.0f numbers, but the file has only %zu bytes",
-                    v->path, v->name, all, e->file.sizes[0]);
+                    v->path, v->name, all, e->file.file[0].size);
   return FG_STATUS_OK;
 }
 
-fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__nc_variable *v,
+fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__variable *v,
                              const size_t *first, const size_t *count, int rank)
 {
   const fg_status status = fg__exodus_check(e, v, first, count, rank);
   if (status != FG_STATUS_OK)
     return status;
-  const int error = fg__nc_fetch(v, first, count, out);
-  return error ? fg__nc_fail(e->file.context, v->path, v->name, error) : FG_STATUS_OK;
+  return fg__variable_fetch(v, first, count, out);
 }
 
 void fg__exodus_text(char out[FG__EXODUS_NAME], const fg__exodus *e, const char *variable,
                      size_t row)
 {
-  const fg__nc_variable *v = fg__nc_find(&e->file, variable);
+  const fg__variable *v = fg__dataset_find(&e->file, variable);
   out[0] = '\0';
-  if (!v || v->rank != 2 || v->type != NC_CHAR ||
+  if (!v || v->rank != 2 || v->type != FG__TYPE_LETTERS ||
       e->file.dimensions[v->dimension[0]].length <= row)
     return;
-  size_t length = e->file.dimensions[v->dimension[1]].length;
-  if (length >= FG__EXODUS_NAME)
-    length = FG__EXODUS_NAME - 1;
-  const size_t start[2] = {row, 0}, count[2] = {1, length};
-  if (fg__nc_check_chunks(v, start, count) ||
-      nc_get_vara_text(v->group, v->id, start, count, out))
-    length = 0;
-  out[length] = '\0';
-  for (length = strlen(out); length > 0 && out[length - 1] == ' ';)
+  if (fg__variable_fetch_texts(v, row, 1, out, FG__EXODUS_NAME) != FG_STATUS_OK)
+    out[0] = '\0';
+  for (size_t length = strlen(out); length > 0 && out[length - 1] == ' ';)
     out[--length] = '\0';
 }
 
@@ -115,7 +107,7 @@ fg_status fg__exodus_add(void **bytes, fg__vtk *vtk, const char *name,
 static fg_status add_positions(fg__vtk *vtk, const fg__exodus *e)
 {
   static const char *const names[] = {"coordx", "coordy", "coordz"};
-  const fg__nc_variable *all = fg__nc_find(&e->file, "coord");
+  const fg__variable *all = fg__dataset_find(&e->file, "coord");
   double *line = fg__allocate(e->points, sizeof *line);
   void *bytes = NULL;
   fg_status status =
@@ -124,7 +116,7 @@ static fg_status add_positions(fg__vtk *vtk, const fg__exodus *e)
     status = fg__exodus_add(&bytes, vtk, "points", FG__VTK_COORDINATES, FG__VTK_FLOAT64,
                             3, e->points);
   for (size_t k = 0; k < e->dimension && k < 3 && status == FG_STATUS_OK; ++k) {
-    const fg__nc_variable *v = all ? all : fg__nc_find(&e->file, names[k]);
+    const fg__variable *v = all ? all : fg__dataset_find(&e->file, names[k]);
     const size_t first[2] = {k, 0}, count[2] = {1, e->points};
     if (!v)
       status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: has no variable '%s'",
@@ -143,7 +135,7 @@ static fg_status add_positions(fg__vtk *vtk, const fg__exodus *e)
 static fg_status choose_time(size_t *out, fg__vtk *vtk, const fg__exodus *e,
                              const fg_read_options *options)
 {
-  const fg__nc_variable *v = fg__nc_find(&e->file, "time_whole");
+  const fg__variable *v = fg__dataset_find(&e->file, "time_whole");
   const size_t first = 0;
   *out = options && options->time > 0 ? (size_t)options->time : 0;
   if (e->times == 0 || e->times > INT_MAX || !v)
@@ -171,11 +163,11 @@ static fg_status find_sizes(fg__exodus *e, const fg__vtk *vtk)
   e->dimension = fg__exodus_length(e, "num_dim");
   e->times = fg__exodus_length(e, "time_step");
   if (e->points >= 1 && e->points <= INT_MAX && e->dimension >= 2 && e->dimension <= 3 &&
-      e->points / MOST_TIMES_LARGER <= e->file.sizes[0])
+      e->points / MOST_TIMES_LARGER <= e->file.file[0].size)
     return FG_STATUS_OK;
   return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                   "%s: %zu nodes in %zu dimensions, in a file of %zu bytes", vtk->path,
-                  e->points, e->dimension, e->file.sizes[0]);
+                  e->points, e->dimension, e->file.file[0].size);
 }
 
 static fg_status take_apart(fg__vtk *vtk, fg__exodus *e, const fg_read_options *options)
@@ -210,11 +202,11 @@ static fg_status open_exodus(fg__vtk *out, fg_context *context, const fg__source
                    .file_size = SIZE_MAX, /* its arrays are in memory, each by itself */
                    .kind = FG__VTK_UNSTRUCTURED,
                    .has_blocks = true};
-  fg_status status = fg__nc_file_open(&e.file, context, source);
+  fg_status status = fg__nc_open(&e.file, context, source);
   if (status == FG_STATUS_OK)
-    status = fg__nc_status(&e.file, take_apart(out, &e, options));
+    status = take_apart(out, &e, options);
   free(e.block);
-  fg__nc_file_close(&e.file);
+  fg__dataset_close(&e.file);
   return status;
 }
 

@@ -5,7 +5,7 @@
 #ifndef FG__EXODUS_H
 #define FG__EXODUS_H
 
-#include "read/netcdf/netcdf.h"
+#include "decode/netcdf/netcdf.h"
 #include "read/vtk/vtk.h"
 
 enum { FG__EXODUS_NODES = 27, FG__EXODUS_NAME = 256 };
@@ -23,15 +23,15 @@ typedef struct fg__exodus_shape {
 const fg__exodus_shape *fg__exodus_shape_find(const char *name, size_t nodes);
 
 typedef struct fg__exodus_block {
-  const fg__nc_variable *nodes; /* its elements' nodes, [cells][nodes] from 1 */
-  int number;                   /* in the names of its variables, from 1 */
+  const fg__variable *nodes; /* its elements' nodes, [cells][nodes] from 1 */
+  int number;                /* in the names of its variables, from 1 */
   char name[FG__EXODUS_NAME];
   size_t cells, per_cell;
   const fg__exodus_shape *shape;
 } fg__exodus_block;
 
 typedef struct fg__exodus {
-  fg__nc_file file;
+  fg__dataset file;
   size_t points, dimension, times;
   fg__exodus_block *block; /* those that are chosen */
   size_t blocks, cells;    /* of these */
@@ -42,9 +42,9 @@ size_t fg__exodus_length(const fg__exodus *e, const char *name);
 
 /* Checks that a variable has count[0] * ... numbers and such a rank, before memory for
  * them is allocated; and reads them, which checks again. FILE_FORMAT, MEMORY. */
-fg_status fg__exodus_check(const fg__exodus *e, const fg__nc_variable *v,
+fg_status fg__exodus_check(const fg__exodus *e, const fg__variable *v,
                            const size_t *first, const size_t *count, int rank);
-fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__nc_variable *v,
+fg_status fg__exodus_numbers(double *out, const fg__exodus *e, const fg__variable *v,
                              const size_t *first, const size_t *count, int rank);
 
 /* A row of letters as a text without blanks at its end; "" where there is none. */

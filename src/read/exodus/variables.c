@@ -15,15 +15,15 @@ static fg_status read_nodal(double *out, const fg__exodus *e, size_t number, siz
 {
   char name[32];
   snprintf(name, sizeof name, "vals_nod_var%zu", number + 1);
-  const fg__nc_variable *v = fg__nc_find(&e->file, name);
+  const fg__variable *v = fg__dataset_find(&e->file, name);
   const size_t first[3] = {time, number, 0}, count[3] = {1, 1, e->points};
   const size_t two_first[2] = {time, 0}, two_count[2] = {1, e->points};
   if (v)
     return fg__exodus_numbers(out, e, v, two_first, two_count, 2);
-  v = fg__nc_find(&e->file, "vals_nod_var");
+  v = fg__dataset_find(&e->file, "vals_nod_var");
   return v ? fg__exodus_numbers(out, e, v, first, count, 3)
            : fg__fail(e->file.context, FG_STATUS_FILE_FORMAT, "%s: has no variable '%s'",
-                      e->file.paths[0], name);
+                      e->file.file[0].path, name);
 }
 
 /* Values of one variable of all chosen blocks' elements; NaN in blocks without it. */
@@ -36,7 +36,7 @@ static fg_status read_of_elements(double *out, const fg__exodus *e, size_t numbe
     const size_t first[2] = {time, 0}, count[2] = {1, block->cells};
     char name[64];
     snprintf(name, sizeof name, "vals_elem_var%zueb%d", number + 1, block->number);
-    const fg__nc_variable *v = fg__nc_find(&e->file, name);
+    const fg__variable *v = fg__dataset_find(&e->file, name);
     if (v)
       status = fg__exodus_numbers(out, e, v, first, count, 2);
     for (size_t c = 0; c < block->cells && !v; ++c)
@@ -70,8 +70,8 @@ static fg_status add_named(fg__vtk *vtk, const fg__exodus *e, fg__vtk_place plac
   fg_status status = FG_STATUS_OK;
   if (count > MOST_VARIABLES)
     return fg__fail(e->file.context, FG_STATUS_UNSUPPORTED,
-                    "%s: %zu variables; at most %d can be read", e->file.paths[0], count,
-                    MOST_VARIABLES);
+                    "%s: %zu variables; at most %d can be read", e->file.file[0].path,
+                    count, MOST_VARIABLES);
   for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
     char name[FG__EXODUS_NAME];
     void *values = NULL;

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/mix.h"
 #include "read/grib/grib.h"
-#include "read/time_words.h"
+#include "terms/dates.h"
 
 #include <math.h>
 #include <stdio.h>

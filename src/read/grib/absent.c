@@ -1,6 +1,6 @@
 /* In builds without GRIB: its files are known, and refused. */
+#include "decode/signature.h"
 #include "read/format.h"
-#include "read/signature.h"
 
 const fg__format fg__format_grib = {.name = "GRIB",
                                     .is_absent = true,

@@ -1,5 +1,6 @@
 /* GRIB, editions 1 and 2, through ecCodes. */
 #include "read/grib/grib.h"
+#include "terms/units.h"
 
 #include "base/memory.h"
 #include "field/slab.h"
@@ -118,10 +119,11 @@ static fg_status read_values(float *velocity[2], const fg__grib_file *file,
     status = use_mask(velocity[0], velocity[1], file, field, grid);
   if (status == FG_STATUS_OK)
     status = fg__grib_values(velocity[1], file, place->component[1], grid);
-  if (status == FG_STATUS_OK) {
-    fg__polar_turn_all(velocity, grid->points, &pair->polar);
+  if (status == FG_STATUS_OK)
+    status = fg__polar_turn_all(file->context, velocity, grid->points, &pair->polar,
+                                file->path[0], pair->name[1]);
+  if (status == FG_STATUS_OK)
     fg__grib_turn(velocity[0], velocity[1], grid);
-  }
   return status;
 }
 
@@ -162,7 +164,7 @@ static void write_captions(captions *out, fg_field_arrays *arrays,
                            const fg__grib_pair *pair, const fg_read_options *options)
 {
   fg__grib_title(pair, out->title, sizeof out->title);
-  fg__grib_units(pair->kind[0]->units, out->units, sizeof out->units);
+  fg__units_read(pair->kind[0]->units, out->units, sizeof out->units);
   fg__grib_time_words(pair, (size_t)options->time, out->time, sizeof out->time);
   fg__grib_level_words(pair, pair->level[options->level], out->level, sizeof out->level);
   arrays->title = out->title;
@@ -210,64 +212,36 @@ static fg_status find_grid(fg__grib_grid *out, const fg__grib_file *file,
   return status;
 }
 
-/* Opened files, and the pair that options choose in them. */
-typedef struct choice {
+typedef struct opened {
   fg__grib_file file;
   fg__grib_pairs pairs;
-} choice;
-
-static fg_status choose(void *data, fg_context *context, const fg__source *source,
-                        const fg_read_options *options)
-{
-  choice *c = data;
-  const fg_status status = open_file(&c->file, context, source, options->vars_from);
-  return status == FG_STATUS_OK ? fg__grib_choose(&c->pairs, &c->file, options) : status;
-}
-
-static void end_choice(void *data)
-{
-  choice *c = data;
-  fg__grib_pairs_clear(&c->pairs);
-  close_file(&c->file);
-}
-
-static const fg__opener CHOICE = {sizeof(choice), choose, end_choice};
-
-static fg_status enter_choice(choice **out, fg_context *context, const fg__source *source,
-                              const fg_read_options *options)
-{
-  void *data;
-  const fg_status status = fg__source_enter(&data, context, source, options, &CHOICE);
-  *out = data;
-  if (*out)
-    (*out)->file.context = context;
-  return status;
-}
-
-/* The place of a pair that is read, and its grid. */
-typedef struct opened {
-  choice *choice;
-  const fg__grib_pair *pair;
-  const fg__grib_place *place;
   fg__grib_grid grid;
+  const fg__grib_place *place;
 } opened;
 
-/* Grid and choice are to be ended, also after a failure. */
+/* Finds the pair, place and grid that are asked for; to be closed even after a failure.
+ */
 static fg_status open_pair(opened *o, fg_context *context, const fg__source *source,
                            const fg_read_options *options)
 {
   memset(o, 0, sizeof *o);
-  fg_status status = enter_choice(&o->choice, context, source, options);
-  if (status != FG_STATUS_OK)
-    return status;
-  const fg__grib_file *file = &o->choice->file;
-  o->pair = o->choice->pairs.pair;
-  status = fg__grib_find_place(&o->place, file, o->pair, options);
+  fg_status status = open_file(&o->file, context, source, options->vars_from);
   if (status == FG_STATUS_OK)
-    status = find_grid(&o->grid, file, o->pair, o->place);
+    status = fg__grib_choose(&o->pairs, &o->file, options);
   if (status == FG_STATUS_OK)
-    status = check_grid(file, o->pair, &o->grid, options->scale);
+    status = fg__grib_find_place(&o->place, &o->file, o->pairs.pair, options);
+  if (status == FG_STATUS_OK)
+    status = find_grid(&o->grid, &o->file, o->pairs.pair, o->place);
+  if (status == FG_STATUS_OK)
+    status = check_grid(&o->file, o->pairs.pair, &o->grid, options->scale);
   return status;
+}
+
+static void close_pair(opened *o)
+{
+  fg__grib_grid_clear(&o->grid);
+  fg__grib_pairs_clear(&o->pairs);
+  close_file(&o->file);
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -284,13 +258,12 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
                       source->path, o.grid.type);
   if (status == FG_STATUS_OK)
     status =
-        read_values(velocity, &o.choice->file, o.pair, o.place, &o.grid, options->mask);
+        read_values(velocity, &o.file, o.pairs.pair, o.place, &o.grid, options->mask);
   if (status == FG_STATUS_OK)
-    status = make_field(out, &o.choice->file, o.pair, &o.grid, velocity, options, slab);
+    status = make_field(out, &o.file, o.pairs.pair, &o.grid, velocity, options, slab);
   free(velocity[0]);
   free(velocity[1]);
-  fg__grib_grid_clear(&o.grid);
-  fg__source_leave(o.choice, source, &CHOICE);
+  close_pair(&o);
   return status;
 }
 
@@ -312,10 +285,10 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
                       source->path, o.grid.type);
   if (status == FG_STATUS_OK && mine)
     status =
-        read_values(velocity, &o.choice->file, o.pair, o.place, &o.grid, options->mask);
+        read_values(velocity, &o.file, o.pairs.pair, o.place, &o.grid, options->mask);
   if (status == FG_STATUS_OK && mine) {
     const float *const both[2] = {velocity[0], velocity[1]};
-    write_captions(&words, &arrays, o.pair, options);
+    write_captions(&words, &arrays, o.pairs.pair, options);
     status = fg__grib_cells(&cells, context, &o.grid, both);
   }
   cells.words = &arrays;
@@ -323,8 +296,7 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
     status = fg__sphere_of_cells(out, context, &cells);
   free(velocity[0]);
   free(velocity[1]);
-  fg__grib_grid_clear(&o.grid);
-  fg__source_leave(o.choice, source, &CHOICE);
+  close_pair(&o);
   return status;
 }
 
@@ -429,7 +401,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
   axis_values values[2] = {{NULL, NULL}, {NULL, NULL}};
   char units[FG__GRIB_TEXT], polar[FG__GRIB_TEXT], frame[FG__GRIB_TEXT + 32];
   fg_status status = find_grid(&grid, file, pair, &pair->place[0]);
-  fg__grib_units(pair->kind[0]->units, units, sizeof units);
+  fg__units_read(pair->kind[0]->units, units, sizeof units);
   fg_inventory_vector vector = {.components = 2,
                                 .name = {pair->name[0], pair->name[1]},
                                 .units = units,
@@ -439,7 +411,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__grib_file *fil
                                 .times = (int)pair->times,
                                 .levels = (int)pair->levels,
                                 .scale = scale_of(&grid)};
-  fg__polar_words(polar, sizeof polar, &pair->polar, "parameters of a wind");
+  fg__polar_words(polar, sizeof polar, &pair->polar, pair->kind[1]->title);
   snprintf(frame, sizeof frame, "east and north (%s)", polar);
   vector.frame = pair->polar.sense != 0 ? frame : NULL;
   if (status == FG_STATUS_OK)
@@ -483,11 +455,15 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
 static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
                                  const fg__source *source, const fg_read_options *options)
 {
-  choice *c;
-  fg_status status = enter_choice(&c, context, source, options);
+  fg__grib_file file;
+  fg__grib_pairs pairs = {0};
+  fg_status status = open_file(&file, context, source, options->vars_from);
   if (status == FG_STATUS_OK)
-    status = describe_pair(inventory, &c->file, c->pairs.pair, false);
-  fg__source_leave(c, source, &CHOICE);
+    status = fg__grib_choose(&pairs, &file, options);
+  if (status == FG_STATUS_OK)
+    status = describe_pair(inventory, &file, pairs.pair, false);
+  fg__grib_pairs_clear(&pairs);
+  close_file(&file);
   return status;
 }
 

@@ -3,10 +3,10 @@
 #ifndef FG__GRIB_H
 #define FG__GRIB_H
 
+#include "decode/signature.h"
 #include "read/format.h"
-#include "read/polar.h"
-#include "read/signature.h"
 #include "sphere/sphere.h"
+#include "terms/polar.h"
 
 #include <eccodes.h>
 
@@ -110,7 +110,7 @@ typedef struct fg__grib_pair {
   const fg__grib_kind *kind[2];
   char name[2][FG__GRIB_TEXT]; /* with what tells it from others: "u@hybrid" */
   fg__grib_rank rank;
-  fg__polar polar;       /* a wind's speed and direction */
+  fg__polar polar;       /* a length and its direction */
   fg__grib_place *place; /* ascending by time, then level */
   size_t places;
   fg__grib_date *time; /* ascending */
@@ -138,19 +138,14 @@ bool fg__grib_is_named(const fg__grib_kind *kind, const char *name);
 
 /* words.c */
 
-/* Whether two kinds are the components of one vector, by ecCodes' titles of them: "U
- * component of wind", "V component of wind"; or by their numbers. */
-bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v);
-
-/* Whether they are the speed and the direction of a wind. */
-bool fg__grib_match_polar(const fg__grib_kind *speed, const fg__grib_kind *direction);
+/* A kind by ecCodes' title, "U component of wind", or by its numbers, and its units. */
+fg__term fg__grib_term(const fg__grib_kind *kind);
 
 /* Words of a time and a level, and of a pair together. */
 void fg__grib_time_words(const fg__grib_pair *pair, size_t time, char *out, size_t size);
 void fg__grib_level_words(const fg__grib_pair *pair, double level, char *out,
                           size_t size);
 void fg__grib_title(const fg__grib_pair *pair, char *out, size_t size);
-void fg__grib_units(const char *units, char *out, size_t size);
 
 /* The units of a pair's levels, "" when they have none. */
 const char *fg__grib_level_units(const fg__grib_pair *pair);

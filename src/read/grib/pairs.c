@@ -1,8 +1,8 @@
 /* Vectors: components of the same level type, member, step type and grid, at all times
  * and levels that both have. */
-#include "base/angle.h"
 #include "base/memory.h"
 #include "read/grib/grib.h"
+#include "terms/vectors.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,7 +43,7 @@ bool fg__grib_is_named(const fg__grib_kind *kind, const char *name)
 
 static bool stand_together(const fg__grib_kind *u, const fg__grib_kind *v)
 {
-  return u != v && u->grid == v->grid && u->member == v->member &&
+  return u->grid == v->grid && u->member == v->member &&
          strcmp(u->level_type, v->level_type) == 0 &&
          strcmp(u->step_type, v->step_type) == 0;
 }
@@ -148,13 +148,12 @@ void fg__grib_pair_clear(fg__grib_pair *pair)
 /* Adds the pair of two kinds that have a time and level in common. */
 static fg_status add_pair(fg__grib_pairs *pairs, const fg__grib_file *file,
                           const fg__grib_kind *u, const fg__grib_kind *v,
-                          fg__grib_rank rank)
+                          fg__grib_rank rank, const fg__polar *polar)
 {
   fg__grib_pair pair = {.kind = {u, v}, .rank = rank};
   fg__grib_place *other = NULL;
   size_t us = 0, vs = 0;
-  if (rank == FG__GRIB_POLAR) /* WMO's table: degrees true, from which it blows */
-    pair.polar = (fg__polar){.sense = -1, .unit = FG__RADIANS};
+  pair.polar = *polar;
   void *all = pairs->pair;
   fg_status status = list_places(&pair.place, &us, file, u, 0);
   if (status == FG_STATUS_OK)
@@ -211,17 +210,6 @@ static void name_component(fg__grib_pair *pair, int k, const fg__grib_pairs *pai
     add_word(pair->name[k], number);
 }
 
-/* The rank of two kinds as the components of one vector; false: they are none. */
-static bool rank_of(fg__grib_rank *out, const fg__grib_kind *u, const fg__grib_kind *v)
-{
-  if (!stand_together(u, v))
-    return false;
-  *out = fg__grib_match_polar(u, v)         ? FG__GRIB_POLAR
-         : strcmp(u->units, "m s**-1") == 0 ? FG__GRIB_VELOCITY
-                                            : FG__GRIB_OTHER;
-  return *out == FG__GRIB_POLAR || strcmp(u->units, v->units) == 0;
-}
-
 static void name_all(fg__grib_pairs *pairs)
 {
   for (size_t i = 0; i < pairs->count; ++i)
@@ -229,21 +217,64 @@ static void name_all(fg__grib_pairs *pairs)
       name_component(&pairs->pair[i], k, pairs);
 }
 
+/* Titles of the kinds; those that stand together are one group. */
+static fg__term *list_terms(const fg__grib_file *file)
+{
+  fg__term *terms = fg__allocate(file->kinds, sizeof *terms);
+  for (size_t i = 0; i < file->kinds && terms; ++i) {
+    size_t first = 0;
+    while (first < i && !stand_together(&file->kind[first], &file->kind[i]))
+      ++first;
+    terms[i] = fg__grib_term(&file->kind[i]);
+    terms[i].group = (int)first;
+  }
+  return terms;
+}
+
+static fg__grib_rank rank_of(const fg__vector *v)
+{
+  return v->polar.sense != 0 ? FG__GRIB_POLAR
+         : v->is_velocity    ? FG__GRIB_VELOCITY
+                             : FG__GRIB_OTHER;
+}
+
 fg_status fg__grib_pairs_find(fg__grib_pairs *out, const fg__grib_file *file)
 {
+  static const fg__vector_rules rules = {0};
+  fg__vector *found = NULL;
+  size_t count = 0;
   *out = (fg__grib_pairs){0};
-  fg_status status = FG_STATUS_OK;
+  fg__term *terms = list_terms(file);
+  fg_status status = terms && fg__vectors_find(&found, &count, terms, file->kinds, &rules)
+                         ? FG_STATUS_OK
+                         : fg__fail_memory(file->context, "pairs of fields", 0);
   for (int rank = FG__GRIB_VELOCITY; rank <= FG__GRIB_OTHER; ++rank)
-    for (size_t i = 0; i < file->kinds * file->kinds && status == FG_STATUS_OK; ++i) {
-      const fg__grib_kind *u = &file->kind[i / file->kinds],
-                          *v = &file->kind[i % file->kinds];
-      fg__grib_rank own;
-      if (rank_of(&own, u, v) && (int)own == rank &&
-          (own == FG__GRIB_POLAR || fg__grib_match(u, v)))
-        status = add_pair(out, file, u, v, own);
+    for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i) {
+      const fg__vector *v = &found[i];
+      if (v->is_upright || (int)rank_of(v) != rank)
+        continue;
+      const fg__grib_kind *a = &file->kind[v->component[0]],
+                          *b = &file->kind[v->component[1]];
+      if (v->polar.sense != 0 || strcmp(a->units, b->units) == 0)
+        status = add_pair(out, file, a, b, (fg__grib_rank)rank, &v->polar);
     }
+  free(found);
+  free(terms);
   name_all(out);
   return status;
+}
+
+/* Two named fields: a length and its direction, or components of one unit. */
+static fg_status add_named(fg__grib_pairs *out, const fg__grib_file *file,
+                           const fg__grib_kind *a, const fg__grib_kind *b)
+{
+  const fg__term one = fg__grib_term(a), other = fg__grib_term(b);
+  fg__polar polar;
+  const int k = fg__direction_among(&polar, &one, &other);
+  if (!stand_together(a, b) || (k < 0 && strcmp(a->units, b->units) != 0))
+    return FG_STATUS_OK;
+  return add_pair(out, file, k == 0 ? b : a, k == 0 ? a : b,
+                  k < 0 ? FG__GRIB_OTHER : FG__GRIB_POLAR, &polar);
 }
 
 fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
@@ -254,12 +285,8 @@ fg_status fg__grib_pairs_named(fg__grib_pairs *out, const fg__grib_file *file,
   for (size_t i = 0; i < file->kinds * file->kinds && status == FG_STATUS_OK; ++i) {
     const fg__grib_kind *a = &file->kind[i / file->kinds],
                         *b = &file->kind[i % file->kinds];
-    fg__grib_rank rank;
-    const bool named = fg__grib_is_named(a, u) && fg__grib_is_named(b, v);
-    if (named && rank_of(&rank, a, b))
-      status = add_pair(out, file, a, b, rank);
-    else if (named && rank_of(&rank, b, a) && rank == FG__GRIB_POLAR)
-      status = add_pair(out, file, b, a, rank);
+    if (a != b && fg__grib_is_named(a, u) && fg__grib_is_named(b, v))
+      status = add_named(out, file, a, b);
   }
   name_all(out);
   return status;

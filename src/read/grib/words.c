@@ -1,32 +1,19 @@
 /* Words: which titles are a vector's components, and captions. */
 #include "read/grib/grib.h"
+#include "terms/dates.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
-/* Words by which titles of components differ. */
-static const char *const DIFFERING[][2] = {
-    {"u", "v"},
-    {"u-component", "v-component"},
-    {"u-comp", "v-comp"},
-    {"u-comp.", "v-comp."},
-    {"u-velocity", "v-velocity"},
-    {"u-wind", "v-wind"},
-    {"eastward", "northward"},
-    {"east-west", "north-south"},
-    {"zonal", "meridional"},
-    {"x", "y"},
-    {"x-component", "y-component"},
-};
-
-static const char *const POLAR[][2] = {{"speed", "direction"}};
-
-/* Parameters without a title: discipline, category and number of edition 2. */
+/* Titles of parameters that ecCodes gives none: discipline, category and number of
+ * edition 2 (WMO's code table 4.2). */
 static const char *const NUMBERED[][2] = {
-    {"0.2.2", "0.2.3"},   {"0.2.23", "0.2.24"}, {"0.2.41", "0.2.42"},
-    {"10.1.2", "10.1.3"}, {"10.2.4", "10.2.5"}, {"10.0.21", "10.0.22"},
+    {"0.2.2", "u wind"},       {"0.2.3", "v wind"},     {"0.2.23", "u wind gust"},
+    {"0.2.24", "v wind gust"}, {"0.2.41", "u wind 41"}, {"0.2.42", "v wind 41"},
+    {"10.1.2", "u current"},   {"10.1.3", "v current"}, {"10.2.4", "u ice drift"},
+    {"10.2.5", "v ice drift"}, {"10.0.21", "u stokes"}, {"10.0.22", "v stokes"},
 };
 
 static size_t word_length(const char *at)
@@ -44,53 +31,13 @@ static const char *skip_space(const char *at)
   return at;
 }
 
-static bool is_word(const char *at, size_t length, const char *word)
+fg__term fg__grib_term(const fg__grib_kind *kind)
 {
-  return strlen(word) == length && strncasecmp(at, word, length) == 0;
-}
-
-typedef const char *const word_pair[2];
-
-static bool differ_by(word_pair *words, size_t count, const char *u, size_t us,
-                      const char *v, size_t vs)
-{
-  for (size_t i = 0; i < count; ++i)
-    if (is_word(u, us, words[i][0]) && is_word(v, vs, words[i][1]))
-      return true;
-  return false;
-}
-
-/* Whether titles are alike but for one of the pairs of words. */
-static bool match_titles(const fg__grib_kind *u, const fg__grib_kind *v, word_pair *words,
-                         size_t count)
-{
-  const char *a = skip_space(u->title), *b = skip_space(v->title);
-  int differing = 0;
-  while (*a && *b) {
-    const size_t as = word_length(a), bs = word_length(b);
-    if (differ_by(words, count, a, as, b, bs))
-      ++differing;
-    else if (as != bs || strncasecmp(a, b, as) != 0)
-      return false;
-    a = skip_space(a + as);
-    b = skip_space(b + bs);
-  }
-  return !*a && !*b && differing == 1;
-}
-
-bool fg__grib_match(const fg__grib_kind *u, const fg__grib_kind *v)
-{
-  const bool untitled = !*skip_space(u->title) && !*skip_space(v->title);
-  for (size_t i = 0; untitled && i < sizeof NUMBERED / sizeof *NUMBERED; ++i)
-    if (strcmp(u->name, NUMBERED[i][0]) == 0 && strcmp(v->name, NUMBERED[i][1]) == 0)
-      return true;
-  return match_titles(u, v, DIFFERING, sizeof DIFFERING / sizeof *DIFFERING);
-}
-
-bool fg__grib_match_polar(const fg__grib_kind *speed, const fg__grib_kind *direction)
-{
-  return (strstr(speed->title, "wind") || strstr(speed->title, "Wind")) &&
-         match_titles(speed, direction, POLAR, sizeof POLAR / sizeof *POLAR);
+  fg__term term = {.name = skip_space(kind->title), .units = kind->units, .file = -1};
+  for (size_t i = 0; !*term.name && i < sizeof NUMBERED / sizeof *NUMBERED; ++i)
+    if (strcmp(kind->name, NUMBERED[i][0]) == 0)
+      term.name = NUMBERED[i][1];
+  return term;
 }
 
 void fg__grib_title(const fg__grib_pair *pair, char *out, size_t size)
@@ -113,37 +60,12 @@ void fg__grib_title(const fg__grib_pair *pair, char *out, size_t size)
     snprintf(out, size, "%s, %s", pair->name[0], pair->name[1]);
 }
 
-/* "m s**-1" is m/s as other formats' speeds are. */
-void fg__grib_units(const char *units, char *out, size_t size)
-{
-  snprintf(out, size, "%s", strcmp(units, "m s**-1") == 0 ? "m/s" : units);
-}
-
-/* The day of the Gregorian calendar that a number of days after 1970-01-01 is. */
-static void date_of(int64_t days, int64_t *year, int *month, int *day)
-{
-  const int64_t shifted = days + 719468;
-  const int64_t era = (shifted >= 0 ? shifted : shifted - 146096) / 146097;
-  const int64_t of_era = shifted - era * 146097;
-  const int64_t years = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
-  const int64_t of_year = of_era - (365 * years + years / 4 - years / 100);
-  const int64_t m = (5 * of_year + 2) / 153;
-  *day = (int)(of_year - (153 * m + 2) / 5 + 1);
-  *month = (int)(m < 10 ? m + 3 : m - 9);
-  *year = years + era * 400 + (*month <= 2);
-}
-
 static size_t write_date(int64_t minutes, char *out, size_t size)
 {
-  int64_t rest = minutes % (24 * 60), year;
-  int month, day;
-  rest += rest < 0 ? 24 * 60 : 0;
-  date_of((minutes - rest) / (24 * 60), &year, &month, &day);
-  const int used =
-      rest == 0 ? snprintf(out, size, "%04lld-%02d-%02d", (long long)year, month, day)
-                : snprintf(out, size, "%04lld-%02d-%02d %02d:%02d", (long long)year,
-                           month, day, (int)(rest / 60), (int)(rest % 60));
-  return used < 0 ? 0 : (size_t)used;
+  const bool known = fg__date_of_seconds(60.0 * (double)minutes, out, size);
+  if (!known)
+    out[0] = '\0';
+  return strlen(out);
 }
 
 /* Forecasts for one time that began at different times say when. */

@@ -1,7 +1,7 @@
 #include "read/isolate/isolate.h"
 
+#include "decode/signature.h"
 #include "read/isolate/wire.h"
-#include "read/signature.h"
 
 #include <stdint.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* In builds without NetCDF its files are recognised and refused. */
+#include "decode/signature.h"
 #include "read/format.h"
-#include "read/signature.h"
 
 static bool is_mine(const unsigned char *bytes, size_t size)
 {

@@ -1,4 +1,4 @@
-#include "read/netcdf/netcdf.h"
+#include "interpret/interpret.h"
 #include "read/netcdf/sample.h"
 
 /* A variable of a file: name, standard name, units. */
@@ -52,75 +52,15 @@ static void assert_pairs(sample_file *f, const declared *variables, size_t count
   assert_string_equal(found, wanted);
 }
 
-static void usual_names_are_paired(void **state)
-{
-  static const char *const names[][2] = {
-      {"u", "v"},
-      {"U", "V"},
-      {"u10", "v10"},
-      {"10u", "10v"},
-      {"UWND", "VWND"},
-      {"uas", "vas"},
-      {"ugrd", "vgrd"},
-      {"U_GRD_6_ISBL", "V_GRD_6_ISBL"},
-      {"UGRD_10maboveground", "VGRD_10maboveground"},
-      {"urot", "vrot"},
-      {"water_u", "water_v"},
-      {"uo", "vo"},
-      {"u_wind", "v_wind"},
-      {"wind_u", "wind_v"},
-      {"windu", "windv"},
-      {"x_wind_10m", "y_wind_10m"},
-      {"vx", "vy"},
-      {"ux", "uy"},
-      {"v_x", "v_y"},
-      {"u_x", "u_y"},
-      {"vel_x", "vel_y"},
-      {"velX", "velY"},
-      {"u_eastward", "v_northward"},
-      {"eastward_wind", "northward_wind"},
-      {"EastwardWind", "NorthwardWind"},
-      {"zonal_velocity", "meridional_velocity"},
-      {"wind_east", "wind_north"},
-      {"u-component_of_wind", "v-component_of_wind"},
-      {"vozocrtx", "vomecrty"},
-      {"ugos", "vgos"},
-      {"ubar", "vbar"},
-      {"u100", "v100"},
-      {"Uwind", "Vwind"},
-      {"vsdx", "vsdy"},
-      {"sustr", "svstr"},
-      {"bustr_day", "bvstr_day"},
-  };
-  for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-    for (int turned = 0; turned < 2; ++turned) {
-      char wanted[128];
-      const declared variables[] = {{"depth_of_sea", NULL, "m"},
-                                    {names[i][turned], NULL, "m/s"},
-                                    {"temperature", NULL, "K"},
-                                    {names[i][1 - turned], NULL, "m/s"}};
-      snprintf(wanted, sizeof wanted, "%s,%s", names[i][0], names[i][1]);
-      assert_pairs(*state, variables, 4, wanted);
-    }
-}
-
 static void what_only_resembles_a_vector_is_not_one(void **state)
 {
   static const declared variables[] = {
       {"u_err", NULL, "1"},
       {"v_err", NULL, "1"},
-      {"u_qc", NULL, NULL},
-      {"v_qc", NULL, NULL},
       {"uerr", NULL, "m/s"},
       {"verr", NULL, "m/s"},
-      {"u10_flag", NULL, NULL},
-      {"v10_flag", NULL, NULL},
-      {"umask", NULL, NULL},
-      {"vmask", NULL, NULL},
       {"ulon", NULL, "degrees_east"},
       {"vlon", NULL, "degrees_east"},
-      {"lon_u", NULL, NULL},
-      {"lon_v", NULL, NULL},
       {"x", NULL, "m"},
       {"y", NULL, "m"},
       {"dx", NULL, "m"},
@@ -285,7 +225,6 @@ int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
   const struct CMUnitTest tests[] = {
-      CASE(usual_names_are_paired),
       CASE(what_only_resembles_a_vector_is_not_one),
       CASE(standard_names_are_paired),
       CASE(heights_of_one_standard_name_are_told_apart),

@@ -1,4 +1,4 @@
-#include "read/format.h"
+#include "decode/source.h"
 #include "read/netcdf/sample.h"
 
 enum { NX = 5, NY = 3, RECORDS = 2, COUNT = NX * NY };

@@ -168,12 +168,17 @@ static fg_status choose(fg__npy_choice *out, fg__npy_file *file, const fg__table
   const bool one = options->vars && !strchr(options->vars, ',');
   if (!options->vars && !table->named && file->count != 4 && file->count != 6)
     return fail_none(file);
-  if (!one && (options->vars || fg__table_vectors(named, table) > 0)) {
-    fg_status status = fg__table_choose(named, table, options);
+  int count = 0;
+  fg_status status = FG_STATUS_OK;
+  if (!options->vars)
+    status = fg__table_vectors(named, &count, table);
+  if (status == FG_STATUS_OK && !one && (options->vars || count > 0)) {
+    status = fg__table_choose(named, table, options);
     return status == FG_STATUS_OK ? choose_pair(out, file, named) : status;
   }
+  if (status != FG_STATUS_OK)
+    return status;
   const int index = one ? fg__table_find(table, options->vars) : -1;
-  fg_status status = FG_STATUS_OK;
   if (one && (index < 0 || !is_vector(out, &file->array[index])))
     status = fail_none(file);
   else if (!one)

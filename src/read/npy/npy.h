@@ -3,7 +3,8 @@
 #ifndef FG__NPY_H
 #define FG__NPY_H
 
-#include "read/points/points.h"
+#include "read/format.h"
+#include "sample/points/points.h"
 
 enum { FG__NPY_RANK = 4, FG__NPY_ARRAYS = 256, FG__NPY_NAME = 64 };
 

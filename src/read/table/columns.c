@@ -1,73 +1,22 @@
 /* Which columns are places and velocities, by their names. */
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "read/table/table.h"
+#include "terms/coordinates.h"
+#include "terms/units.h"
+#include "terms/vectors.h"
 
-/* Names of coordinates, parted by |. */
-static const char *const PLACES[3] = {
-    "|x|xc|x_coordinate|x_coord|x_position|x_pos|xpos|pos_x|position_x|px|points_0|"
-    "coordinates_0|easting|x_0|",
-    "|y|yc|y_coordinate|y_coord|y_position|y_pos|ypos|pos_y|position_y|py|points_1|"
-    "coordinates_1|northing|y_0|",
-    "|z|zc|z_coordinate|z_coord|z_position|z_pos|zpos|pos_z|position_z|pz|points_2|"
-    "coordinates_2|altitude|z_0|"};
-static const char *const GLOBE[2] = {
-    "|lon|long|longitude|lng|nav_lon|xlong|glon|lon_deg|longitude_deg|lon_e|"
-    "degrees_east|lon_dd|",
-    "|lat|latitude|nav_lat|xlat|glat|lat_deg|latitude_deg|lat_n|degrees_north|lat_dd|"};
-
-/* Velocities that go by these names alone, before others. */
-static const char *const VELOCITY_NAMES[][3] = {
-    {"u", "v", "w"},         {"vx", "vy", "vz"}, {"ux", "uy", "uz"},
-    {"east", "north", "up"}, {"ve", "vn", "vu"}, {"e", "n", "u"}};
-
-/* What stands for one component in another's place in a name. */
-static const char *const WORDS[][3] = {
-    {"u", "v", "w"},         {"x", "y", "z"},
-    {"east", "north", "up"}, {"zonal", "meridional", "vertical"},
-    {"0", "1", "2"},         {"e", "n", "u"},
-    {"i", "j", "k"}};
-
-/* Words of names that are no velocity. */
-static const char *const OTHER[] = {
-    "err",    "error", "std",   "sigma", "unc",      "rms",        "var",
-    "qc",     "flag",  "count", "pos",   "position", "coord",      "stress",
-    "points", "flux",  "sd",    "se",    "variance", "uncertainty"};
-
-/* Of planes one above another. */
-static const char LEVELS[] =
-    "|z|zc|z_coordinate|z_coord|z_position|z_pos|pos_z|position_z|points_2|"
-    "coordinates_2|altitude|height|depth|level|lev|plane|";
-
-static bool is_one_of(const char *list, const char *name)
+/* The column that has a use by its name, or else may have it; -1: none. */
+static int find_column(const fg__table *table, fg__column_use use)
 {
-  char word[FG__TABLE_NAME + 2];
-  snprintf(word, sizeof word, "|%s|", name);
-  return name[0] && strstr(list, word) != NULL;
-}
-
-static int find_listed(const fg__table *table, const char *list)
-{
-  for (int c = 0; c < table->columns; ++c)
-    if (is_one_of(list, table->column[c].plain))
-      return c;
+  for (int least = 2; least > 0; --least)
+    for (int c = 0; c < table->columns; ++c)
+      if (fg__column_fits(table->column[c].name, use) >= least)
+        return c;
   return -1;
-}
-
-/* A coordinate by its listed names, or one with its unit: x_mm, x_px. */
-static int find_place(const fg__table *table, int axis)
-{
-  int found = find_listed(table, PLACES[axis]);
-  for (int c = 0; c < table->columns && found < 0; ++c) {
-    const char *plain = table->column[c].plain;
-    if (plain[0] == "xyz"[axis] && plain[1] == '_' && fg__table_is_unit(plain + 2))
-      found = c;
-  }
-  return found;
 }
 
 int fg__table_find_plain(const fg__table *table, const char *plain)
@@ -78,66 +27,29 @@ int fg__table_find_plain(const fg__table *table, const char *plain)
   return -1;
 }
 
-bool fg__table_has_word(const char *plain, const char *word)
-{
-  const size_t length = strlen(word);
-  for (const char *at = plain; (at = strstr(at, word)) != NULL; ++at)
-    if ((at == plain || at[-1] == '_') && (at[length] == '\0' || at[length] == '_'))
-      return true;
-  return false;
-}
-
-static bool is_other(const char *plain)
-{
-  for (size_t i = 0; i < sizeof OTHER / sizeof *OTHER; ++i)
-    if (fg__table_has_word(plain, OTHER[i]))
-      return true;
-  return false;
-}
-
-/* Whether a word at `at` may be a component's: a long one anywhere, a letter at the
- * beginning or end of a part of a longer name. */
-static bool may_stand(const char *plain, const char *at, size_t length)
-{
-  const bool starts = at == plain || at[-1] == '_';
-  const bool ends = at[length] == '\0' || at[length] == '_';
-  return length > 1 || (plain[1] && (starts || ends));
-}
-
-/* The column named like `plain` but for one word. */
-static int find_like(const fg__table *table, const char *plain, const char *at,
-                     const char *word, const char *other)
-{
-  char name[2 * FG__TABLE_NAME];
-  snprintf(name, sizeof name, "%.*s%s%s", (int)(at - plain), plain, other,
-           at + strlen(word));
-  return fg__table_find_plain(table, name);
-}
-
 /* The places of points; the first two or three columns where none have names. */
 void fg__table_places(fg__table_vector *out, const fg__table *table)
 {
-  const int lon = find_listed(table, GLOBE[0]), lat = find_listed(table, GLOBE[1]);
+  const int lon = find_column(table, FG__COLUMN_LONGITUDE),
+            lat = find_column(table, FG__COLUMN_LATITUDE);
   out->geographic = lon >= 0 && lat >= 0;
-  out->position[0] = out->geographic ? lon : find_place(table, 0);
-  out->position[1] = out->geographic ? lat : find_place(table, 1);
-  out->position[2] = out->geographic ? -1 : find_place(table, 2);
+  out->position[0] = out->geographic ? lon : find_column(table, FG__COLUMN_X);
+  out->position[1] = out->geographic ? lat : find_column(table, FG__COLUMN_Y);
+  out->position[2] = out->geographic ? -1 : find_column(table, FG__COLUMN_Z);
 }
 
 /* Finds the columns of the time and level of rows, and those that mark rows without a
  * measurement (rows.c has which values do). */
 static void find_time_and_validity(fg__table_vector *out, const fg__table *table)
 {
-  out->valid[0] = out->valid[1] = out->mask = -1;
-  out->valid[0] = find_listed(table, "|chc|vector_type|isvalid|is_valid|flags|");
+  out->valid[0] = find_column(table, FG__COLUMN_VALIDITY);
+  out->valid[1] = out->mask = -1;
   if (fg__table_find_plain(table, "flags") >= 0 || table->columns == 5)
     out->valid[1] = fg__table_find_plain(table, "mask");
-  out->time =
-      find_listed(table, "|time|t|time_s|timestep|time_step|step|snapshot|date|"
-                         "datetime|date_time|timestamp|time_utc|date_utc|valid_time|");
+  out->time = find_column(table, FG__COLUMN_TIME);
   if (out->time >= 0 && strcmp(table->column[out->time].name, "T") == 0)
     out->time = -1; /* a temperature */
-  out->level = table->named ? find_listed(table, LEVELS) : -1;
+  out->level = table->named ? find_column(table, FG__COLUMN_LEVEL) : -1;
 }
 
 /* A level's column has no other use. */
@@ -148,121 +60,122 @@ static void settle_level(fg__table_vector *v)
       v->level = -1;
 }
 
-static void add(fg__table_vector *list, int *count, const fg__table *table,
-                const int velocity[3], const char *found_by)
+/* A vector in a plane of x and z, or of y and z, where the third axis has no columns at
+ * all; false: there is none. */
+static bool set_upright(fg__table_vector *v, const int velocity[3])
 {
-  fg__table_vector v = {.found_by = found_by};
-  fg__table_places(&v, table);
-  find_time_and_validity(&v, table);
-  const bool placed = v.position[0] >= 0 && v.position[1] >= 0;
-  if (*count == FG__TABLE_VECTORS || (!placed && !table->placeless))
-    return;
-  v.dimension = velocity[2] >= 0 && (v.position[2] >= 0 || !placed) ? 3 : 2;
-  for (int k = 0; k < 3; ++k) {
-    v.velocity[k] = k < v.dimension ? velocity[k] : -1;
-    for (int d = 0; d < 3; ++d)
-      if (k < v.dimension && velocity[k] >= 0 && velocity[k] == v.position[d])
-        return;
-  }
-  if (v.dimension == 2)
-    v.position[2] = -1;
-  settle_level(&v);
-  list[(*count)++] = v;
-}
-
-/* A plane of x and z, or of y and z, where the third axis has no columns at all. */
-static void add_upright(fg__table_vector *list, int *count, const fg__table *table,
-                        const int velocity[3])
-{
-  fg__table_vector v = {.found_by = "names", .dimension = 2};
   int axis[3], axes = 0;
-  fg__table_places(&v, table);
-  find_time_and_validity(&v, table);
   for (int k = 0; k < 3; ++k) {
-    if ((velocity[k] >= 0) != (v.position[k] >= 0))
-      return;
+    if ((velocity[k] >= 0) != (v->position[k] >= 0))
+      return false;
     if (velocity[k] >= 0)
       axis[axes++] = k;
   }
-  if (axes != 2 || *count == FG__TABLE_VECTORS)
-    return;
-  const int place[2] = {v.position[axis[0]], v.position[axis[1]]};
+  v->dimension = 2;
+  for (int k = 0; k < 2 && axes == 2; ++k) {
+    v->position[k] = v->position[axis[k]]; /* axis[k] is k or larger */
+    v->velocity[k] = velocity[axis[k]];
+  }
+  return axes == 2;
+}
+
+/* Whether columns are those of places, and no others can be. */
+static bool are_taken(const fg__table_vector *v, const fg__table *table,
+                      const int velocity[3], int dimension)
+{
+  for (int k = 0; k < dimension; ++k)
+    for (int d = 0; d < 3; ++d)
+      if (velocity[k] == v->position[d] &&
+          (!table->placeless || fg__names_coordinate(table->column[velocity[k]].name)))
+        return true;
+  return false;
+}
+
+/* A vector in a plane or in space; false where its columns have another use. */
+static bool set_components(fg__table_vector *v, const fg__table *table,
+                           const int velocity[3])
+{
+  const bool placed = v->position[0] >= 0 && v->position[1] >= 0;
+  if (!placed && !table->placeless)
+    return false;
+  v->dimension = velocity[2] >= 0 && (v->position[2] >= 0 || !placed) ? 3 : 2;
+  if (are_taken(v, table, velocity, v->dimension))
+    return false;
+  for (int k = 0; k < v->dimension; ++k) {
+    v->velocity[k] = velocity[k];
+    for (int d = 0; d < 3; ++d)
+      if (velocity[k] == v->position[d]) /* px and py alone are a momentum */
+        v->position[0] = v->position[1] = v->position[2] = -1;
+  }
+  return true;
+}
+
+/* Where a direction counts from is known on the globe, or said. */
+static bool set_vector(fg__table_vector *out, const fg__table *table,
+                       const fg__vector *found)
+{
+  *out = (fg__table_vector){
+      .found_by = found->found_by, .polar = found->polar, .velocity = {-1, -1, -1}};
+  fg__table_places(out, table);
+  find_time_and_validity(out, table);
+  if ((found->polar.sense != 0 && !out->geographic && !found->polar.from_east) ||
+      !(found->is_upright ? set_upright(out, found->component)
+                          : set_components(out, table, found->component)))
+    return false;
+  if (out->dimension == 2)
+    out->position[2] = -1;
+  settle_level(out);
+  return true;
+}
+
+fg__term fg__table_term(const fg__table *table, int column)
+{
+  return (fg__term){.name = table->column[column].name,
+                    .units = table->column[column].units,
+                    .file = -1};
+}
+
+/* The vectors of the best rank that has one. */
+static fg_status find_vectors(fg__table_vector out[FG__TABLE_VECTORS], int *count,
+                              const fg__table *table)
+{
+  static const fg__vector_rules rules = {.at_points = true};
+  fg__term *term = fg__allocate((size_t)table->columns, sizeof *term);
+  fg__vector *found = NULL;
+  size_t all = 0;
+  for (int c = 0; c < table->columns && term; ++c)
+    term[c] = fg__table_term(table, c);
+  const bool memory =
+      term && fg__vectors_find(&found, &all, term, (size_t)table->columns, &rules);
+  int rank = 0;
+  for (size_t i = 0; i < all && *count < FG__TABLE_VECTORS; ++i) {
+    if (*count > 0 && found[i].rank > rank)
+      break;
+    rank = found[i].rank;
+    *count += set_vector(&out[*count], table, &found[i]);
+  }
+  free(found);
+  free(term);
+  return memory ? FG_STATUS_OK : fg__fail_memory(table->context, "vectors", 0);
+}
+
+fg_status fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], int *count,
+                            const fg__table *table)
+{
+  *count = 0;
+  if (table->named)
+    return find_vectors(out, count, table);
+  if (table->columns != 4 && table->columns != 6)
+    return FG_STATUS_OK;
+  const int dimension = table->columns / 2;
+  out[0] = (fg__table_vector){.dimension = dimension, .found_by = "columns"};
+  find_time_and_validity(&out[0], table);
   for (int k = 0; k < 3; ++k) {
-    v.position[k] = k < 2 ? place[k] : -1;
-    v.velocity[k] = k < 2 ? velocity[axis[k]] : -1;
+    out[0].velocity[k] = k < dimension ? dimension + k : -1;
+    out[0].position[k] = k < dimension ? k : -1;
   }
-  settle_level(&v);
-  list[(*count)++] = v;
-}
-
-/* Pairs of names that differ by one word. */
-static void find_pairs(fg__table_vector *list, int *count, const fg__table *table)
-{
-  for (int c = 0; c < table->columns; ++c) {
-    const char *plain = table->column[c].plain;
-    int found = -1;
-    for (size_t w = 0; w < sizeof WORDS / sizeof *WORDS && found < 0; ++w) {
-      const size_t length = strlen(WORDS[w][0]);
-      for (const char *at = plain; (at = strstr(at, WORDS[w][0])) != NULL && found < 0;
-           ++at) {
-        if (is_other(plain) || !may_stand(plain, at, length))
-          continue;
-        found = find_like(table, plain, at, WORDS[w][0], WORDS[w][1]);
-        if (found >= 0) {
-          const int velocity[3] = {c, found,
-                                   find_like(table, plain, at, WORDS[w][0], WORDS[w][2])};
-          add(list, count, table, velocity, "names");
-        }
-      }
-    }
-  }
-}
-
-/* Speed and direction, clockwise from north: where the wind comes from, where anything
- * else goes to. */
-static void find_polar(fg__table_vector *list, int *count, const fg__table *table)
-{
-  for (int c = 0; c < table->columns; ++c) {
-    const int speed =
-        fg__table_is_direction(table, c) ? fg__table_speed_of(table, c) : -1;
-    const int velocity[3] = {speed, c, -1}, before = *count;
-    if (speed >= 0)
-      add(list, count, table, velocity, "speed and direction");
-    if (*count > before && !list[before].geographic)
-      *count = before; /* clockwise from north, or against it from x: who knows */
-    else if (*count > before)
-      fg__table_set_polar(&list[before], table);
-  }
-}
-
-int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *table)
-{
-  int count = 0;
-  if (!table->named && (table->columns == 4 || table->columns == 6)) {
-    const int dimension = table->columns / 2;
-    out[0] = (fg__table_vector){.dimension = dimension, .found_by = "columns"};
-    find_time_and_validity(&out[0], table);
-    for (int k = 0; k < 3; ++k) {
-      out[0].velocity[k] = k < dimension ? dimension + k : -1;
-      out[0].position[k] = k < dimension ? k : -1;
-    }
-    return 1;
-  }
-  for (size_t i = 0; i < sizeof VELOCITY_NAMES / sizeof *VELOCITY_NAMES && count == 0;
-       ++i) {
-    const int velocity[3] = {fg__table_find_plain(table, VELOCITY_NAMES[i][0]),
-                             fg__table_find_plain(table, VELOCITY_NAMES[i][1]),
-                             fg__table_find_plain(table, VELOCITY_NAMES[i][2])};
-    if (velocity[0] >= 0 && velocity[1] >= 0)
-      add(out, &count, table, velocity, "names");
-    else
-      add_upright(out, &count, table, velocity);
-  }
-  if (count == 0)
-    find_pairs(out, &count, table);
-  if (count == 0)
-    find_polar(out, &count, table);
-  return count;
+  *count = 1;
+  return FG_STATUS_OK;
 }
 
 int fg__table_find(const fg__table *table, const char *name)
@@ -351,8 +264,9 @@ static fg_status choose_named(fg__table_vector *out, const fg__table *table,
       out->position[k] = k < out->dimension ? k : -1;
   }
   if (with_places)
-    out->geographic = is_one_of(GLOBE[0], table->column[column[0]].plain) &&
-                      is_one_of(GLOBE[1], table->column[column[1]].plain);
+    out->geographic =
+        fg__column_fits(table->column[column[0]].name, FG__COLUMN_LONGITUDE) &&
+        fg__column_fits(table->column[column[1]].name, FG__COLUMN_LATITUDE);
   settle_level(out);
   status = fg__table_settle_polar(out, table,
                                   out->geographic || options->scale == FG_SCALE_GEO);
@@ -384,6 +298,19 @@ static fg_status fail_ambiguous(const fg__table *table, const fg__table_vector *
   return FG_STATUS_ARGUMENT;
 }
 
+/* Refuses a vector of two units. */
+static fg_status check_units(const fg__table *table, const fg__table_vector *v)
+{
+  const fg__table_column *u = &table->column[v->velocity[0]];
+  for (int k = 1; k < v->dimension && v->polar.sense == 0; ++k) {
+    const fg__table_column *other = &table->column[v->velocity[k]];
+    if (fg__units_differ(u->units, other->units))
+      return fg__fail(table->context, FG_STATUS_UNSUPPORTED, "%s: %s is in %s, %s in %s",
+                      table->path, u->name, u->units, other->name, other->units);
+  }
+  return FG_STATUS_OK;
+}
+
 fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
                            const fg_read_options *options)
 {
@@ -392,10 +319,11 @@ fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
   if (options->vars) {
     status = choose_named(out, table, options);
   } else {
-    const int count = fg__table_vectors(found, table);
+    int count;
     char names[512];
     list_names(names, sizeof names, table);
-    if (count == 0) {
+    status = fg__table_vectors(found, &count, table);
+    if (status == FG_STATUS_OK && count == 0) {
       status = fg__fail(table->context, FG_STATUS_UNSUPPORTED,
                         "%s: %d columns%s %s: which are x, y, u and v?", table->path,
                         table->columns, table->named ? "," : " without names,", names);
@@ -403,10 +331,12 @@ fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
                "name them: --vars X,Y,U,V, or by numbers: --vars 1,2,3,4");
     } else if (count > 1) {
       status = fail_ambiguous(table, found, count);
-    } else {
+    } else if (status == FG_STATUS_OK) {
       *out = found[0];
     }
   }
+  if (status == FG_STATUS_OK)
+    status = check_units(table, out);
   if (status == FG_STATUS_OK && options->mask) {
     out->mask = fg__table_find(table, options->mask);
     if (out->mask < 0)

@@ -9,6 +9,8 @@
 #include "file/number_text.h"
 #include "file/utf8.h"
 #include "read/table/table.h"
+#include "terms/text.h"
+#include "terms/units.h"
 
 enum { LOOKED_AT = 8 };
 
@@ -41,30 +43,6 @@ static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
     out[--n] = '\0';
 }
 
-/* Small letters and figures, everything else one _ between them. */
-static void simplify(char out[FG__TABLE_NAME], const char *name)
-{
-  size_t n = 0;
-  for (const char *c = name; *c && n + 1 < FG__TABLE_NAME; ++c)
-    if (isalnum((unsigned char)*c))
-      out[n++] = (char)tolower((unsigned char)*c);
-    else if (n > 0 && out[n - 1] != '_')
-      out[n++] = '_';
-  while (n > 0 && out[n - 1] == '_')
-    --n;
-  out[n] = '\0';
-}
-
-bool fg__table_is_unit(const char *text)
-{
-  static const char *const known[] = {"m",   "mm",  "cm",    "km",     "um",      "px",
-                                      "deg", "pix", "pixel", "pixels", "degrees", "kn"};
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcasecmp(text, known[i]) == 0)
-      return true;
-  return strchr(text, '/') != NULL;
-}
-
 /* Whether a bracket holds the index of a component, as STAR-CCM+'s Velocity[i] (m/s). */
 static bool is_index(const char *text, size_t size)
 {
@@ -88,14 +66,14 @@ void fg__table_name(fg__table_column *column, const char *text, size_t size)
   } else {
     copy_text(column->name, text, size);
     char *blank = strchr(column->name, ' ');
-    if (blank && fg__table_is_unit(blank + 1)) {
+    if (blank && fg__is_unit_in_name(blank + 1)) {
       copy_text(column->units, blank + 1, strlen(blank + 1));
       *blank = '\0';
     }
   }
   if (strcmp(column->units, "-") == 0)
     column->units[0] = '\0';
-  simplify(column->plain, column->name);
+  fg__plain_name(column->plain, sizeof column->plain, column->name);
 }
 
 /* Splits names at blanks, and leaves "[mm]" with the name before it. */
@@ -248,13 +226,16 @@ static bool read_davis(fg__table *table, const char *text, const char *end)
 }
 
 /* Whether names are those of a vector and its place. */
-static bool tell_vectors(const fg__table *table, fg__table_column *names)
+static fg_status tell_vectors(bool *out, const fg__table *table, fg__table_column *names)
 {
+  int count;
   fg__table_vector found[FG__TABLE_VECTORS];
   fg__table named = *table;
   named.column = names;
   named.named = true;
-  return fg__table_vectors(found, &named) > 0;
+  const fg_status status = fg__table_vectors(found, &count, &named);
+  *out = count > 0;
+  return status;
 }
 
 static fg_status fail_first(const fg__table *table, const fg__table_line *line)
@@ -292,7 +273,7 @@ static fg_status read_line_of_names(fg__table *table, const fg__table_line *line
           status = fail_first(table, &line[i]);
         continue;
       }
-      done = tell_vectors(table, names);
+      status = tell_vectors(&done, table, names);
       if (done || !table->named)
         memcpy(table->column, names, bytes);
       table->named = true;

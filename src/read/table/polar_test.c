@@ -66,6 +66,8 @@ static void named_speeds_and_directions_are_turned(void **state)
       {"lon,lat,wind_speed_10m,wind_direction_10m,t2", NULL, -1.0},
       {"lon,lat,ff,dd,t2", NULL, -1.0},
       {"lon,lat,ff,dd,t2", "dd,ff", -1.0},
+      {"lon,lat,wave_height,wave_dir,t2", "wave_height,wave_dir", -1.0},
+      {"lon,lat,swh,theta (deg),t2", "theta,swh", 1.0},
   };
   char text[2048];
   for (size_t i = 0; i < sizeof same / sizeof *same; ++i)
@@ -152,16 +154,11 @@ static void halves_are_refused(void **state)
     fg_status status;
     const char *words, *hint;
   } refused[] = {
-      {"lon,lat,wind_speed,wind_direction,t2", "wind_direction,t2", FG_STATUS_ARGUMENT,
-       "wind_direction is a direction, and t2 is no speed",
-       "--vars wind_speed,wind_direction"},
       {"lon,lat,wind_speed,wind_direction,t2", "t2,wind_speed", FG_STATUS_ARGUMENT,
        "wind_speed is a speed, and t2 is no direction",
        "--vars wind_speed,wind_direction"},
-      {"lon,lat,height,wave_dir,t2", "height,wave_dir", FG_STATUS_ARGUMENT,
-       "wave_dir is a direction, and height is no speed", "a speed and its direction"},
       {"x,y,speed,direction,t2", "speed,direction", FG_STATUS_UNSUPPORTED,
-       "speed and direction are a speed and a direction, which are read with longitude "
+       "speed and direction are a length and its direction, which are read with longitude "
        "and latitude only",
        "components u and v first"},
       {"lon,lat,wind_speed,wind_dir (10s deg),t2", "wind_speed,wind_dir",

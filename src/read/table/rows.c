@@ -9,7 +9,7 @@
 #include "base/memory.h"
 #include "file/number_text.h"
 #include "read/table/table.h"
-#include "read/time_words.h"
+#include "terms/dates.h"
 
 enum {
   ROLES = 11,
@@ -27,6 +27,7 @@ typedef struct row_reader {
   const fg__table_vector *vector;
   int *role; /* [columns], of each column; -1: none */
   double value[ROLES];
+  fg__angles angles;
   bool dated; /* the time of this row is a date, in seconds from 1970 on */
 } row_reader;
 
@@ -178,6 +179,7 @@ static fg_status add_row(fg__scatter *out, growth *g, row_reader *r, int line)
       return FG_STATUS_OK;
   double *pair = &r->value[VELOCITY];
   if (r->vector->polar.sense != 0) {
+    fg__angles_add(&r->angles, pair[1]);
     if (pair[0] == 0.0) /* a calm has no direction */
       pair[1] = 0.0;
     fg__polar_turn(pair, &r->vector->polar);
@@ -251,6 +253,9 @@ fg_status fg__table_rows(fg__scatter *out, const fg__table *table,
     if (status == FG_STATUS_OK)
       status = add_row(out, &g, &r, line.number);
   }
+  if (status == FG_STATUS_OK && vector->polar.sense != 0)
+    status = fg__angles_check(&r.angles, table->context, &vector->polar, table->path,
+                              table->column[vector->velocity[1]].name);
   free(r.role);
   fg__number_locale_end(&locale);
   if (status != FG_STATUS_OK)

@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 #include "file/number_text.h"
-#include "read/time_words.h"
+#include "interpret/time_words.h"
 
 enum { LOOKED_AT = 4096, LEVEL_BYTES = 2 * FG__TABLE_NAME + FG__NUMBER_BYTES + 8 };
 
@@ -304,11 +304,10 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
   fg__table_vector found[FG__TABLE_VECTORS];
   fg_status status = fg__table_open(&table, context, source);
   int count = 0;
-  if (status == FG_STATUS_OK) {
-    count = fg__table_vectors(found, &table);
-    if (count == 0) /* the message tells the columns */
-      status = fg__table_choose(found, &table, &defaults);
-  }
+  if (status == FG_STATUS_OK)
+    status = fg__table_vectors(found, &count, &table);
+  if (status == FG_STATUS_OK && count == 0) /* the message tells the columns */
+    status = fg__table_choose(found, &table, &defaults);
   for (int i = 0; i < count && status == FG_STATUS_OK; ++i)
     status = describe_vector(inventory, &table, &found[i]);
   fg__table_clear(&table);

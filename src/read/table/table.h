@@ -4,8 +4,9 @@
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
-#include "read/points/points.h"
-#include "read/polar.h"
+#include "read/format.h"
+#include "sample/points/points.h"
+#include "terms/polar.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -99,9 +100,6 @@ fg_status fg__table_find_names(fg__table *table, const fg__source *source);
 /* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm", "U[i] (m/s)". */
 void fg__table_name(fg__table_column *column, const char *text, size_t size);
 
-/* Whether a word is a unit that Insight and others write without brackets: "X mm". */
-bool fg__table_is_unit(const char *text);
-
 /* Columns of a vector and what else a row has; -1: none. */
 typedef struct fg__table_vector {
   int dimension; /* of velocity and position */
@@ -118,9 +116,13 @@ typedef struct fg__table_vector {
 
 enum { FG__TABLE_VECTORS = 16 };
 
-/* columns.c. Lists the vectors that columns may be; in the order of the columns. At most
- * FG__TABLE_VECTORS. */
-int fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], const fg__table *table);
+/* columns.c. Lists the vectors that columns may be, those of the best evidence. At most
+ * FG__TABLE_VECTORS. MEMORY. */
+fg_status fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], int *count,
+                            const fg__table *table);
+
+/* What a column is called, and its units. */
+fg__term fg__table_term(const fg__table *table, int column);
 
 /* The columns of places alone. */
 void fg__table_places(fg__table_vector *out, const fg__table *table);
@@ -136,17 +138,8 @@ int fg__table_find(const fg__table *table, const char *name);
 /* The column whose plain name this is; -1: none. */
 int fg__table_find_plain(const fg__table *table, const char *plain);
 
-/* Whether a plain name has that word between its ends and _. */
-bool fg__table_has_word(const char *plain, const char *word);
-
-/* polar.c. Whether a column is a direction, the column of its speed (-1: none), and what
- * a vector of both is. */
-bool fg__table_is_direction(const fg__table *table, int column);
-int fg__table_speed_of(const fg__table *table, int direction);
-void fg__table_set_polar(fg__table_vector *vector, const fg__table *table);
-
-/* Makes a named pair of a speed and a direction, in either order, polar. ARGUMENT (only
- * one of them is such), UNSUPPORTED (not on the globe). */
+/* polar.c. Makes a named pair of a length and its direction, in either order, polar.
+ * ARGUMENT (a speed beside what is no direction), UNSUPPORTED (not on the globe). */
 fg_status fg__table_settle_polar(fg__table_vector *vector, const fg__table *table,
                                  bool on_globe);
 

@@ -1,6 +1,6 @@
 /* In builds without a reader of VTK files: they are known, and refused. */
 #include "base/feature.h"
-#include "read/signature.h"
+#include "decode/signature.h"
 #include "read/vtk/density.h"
 
 const fg__format fg__format_vti = {.name = "VTK XML",

@@ -1,10 +1,15 @@
 /* Which arrays of a file are the vectors. */
 #include "base/memory.h"
 #include "read/vtk/vtk.h"
+#include "terms/vectors.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Vectors that the file marks as such come first, then vector variables, then those of
+ * several arrays. */
+enum { MARKED = 0, WHOLE_ARRAY, BY_NAMES };
 
 /* The first piece speaks for all. */
 static const fg__vtk_array *arrays_of_file(const fg__vtk *vtk, size_t *count)
@@ -50,39 +55,10 @@ static fg__vtk_vector vector_of(const fg__vtk *vtk, const fg__vtk_array *array)
                           .names = 1,
                           .components = array->components,
                           .place = array->place,
+                          .rank = is_active(vtk, array) ? MARKED : WHOLE_ARRAY,
                           .found_by = is_active(vtk, array) ? "Vectors attribute"
                                                             : "vector variable",
                           .units = array->units};
-}
-
-/* Whether a name is `like` but for its letter `at`. */
-static bool is_like(const char *name, const char *like, size_t at, char letter)
-{
-  return strlen(name) == strlen(like) && strncmp(name, like, at) == 0 &&
-         name[at] == letter && strcmp(name + at + 1, like + at + 1) == 0;
-}
-
-/* "u10" for letter "u" and a name "v10"-like: names that differ in one letter, u against
- * v or x against y, at their beginning or end or before figures: u v, U V, vx vy, u10
- * v10, velocity_x velocity_y; but not bare x and y, which are coordinates. In a volume
- * the third, unless NULL, is a w or z like them. */
-static bool are_a_pair(const char *first, const char *second, const char *third)
-{
-  static const char *const letters[] = {"uvw", "UVW", "xyz", "XYZ"};
-  size_t length = strlen(first), at = 0;
-  if (length != strlen(second) || length == 0)
-    return false;
-  while (at < length && first[at] == second[at])
-    ++at;
-  if (at == length || strcmp(first + at + 1, second + at + 1) != 0)
-    return false;
-  bool known = false;
-  for (size_t k = 0; k < 4; ++k)
-    known = known || (first[at] == letters[k][0] && second[at] == letters[k][1] &&
-                      (!third || is_like(third, first, at, letters[k][2])));
-  size_t figures = strspn(first + at + 1, "0123456789_");
-  bool coordinates = length == 1 && (first[0] == 'x' || first[0] == 'X');
-  return known && !coordinates && (at == 0 || at + 1 + figures == length);
 }
 
 static bool is_scalar(const fg__vtk_array *array)
@@ -106,52 +82,51 @@ static fg_status add(fg__vtk_vector **out, size_t *count, size_t *capacity,
   return FG_STATUS_OK;
 }
 
-/* The third of a volume's components, beside two that are a pair; NULL for none. */
-static const fg__vtk_array *find_third(const fg__vtk *vtk, const fg__vtk_array *first,
-                                       const fg__vtk_array *second)
+/* The arrays that may be components, with points and cells as groups. */
+static fg__term *list_components(size_t *count, const fg__vtk *vtk)
 {
   size_t arrays;
-  const fg__vtk_array *third = arrays_of_file(vtk, &arrays);
-  for (size_t i = 0; i < arrays; ++i, ++third)
-    if (third->place == first->place && is_component(third) &&
-        are_a_pair(first->name, second->name, third->name))
-      return third;
-  return NULL;
+  const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
+  fg__term *terms = fg__allocate(arrays, sizeof *terms);
+  *count = 0;
+  for (size_t i = 0; i < arrays && terms; ++i)
+    if (is_component(&array[i]))
+      terms[(*count)++] = (fg__term){.name = array[i].name,
+                                     .units = array[i].units,
+                                     .group = array[i].place,
+                                     .file = -1};
+  return terms;
 }
 
-static fg_status add_pairs(fg__vtk_vector **out, size_t *count, size_t *capacity,
-                           const fg__vtk *vtk, const fg__vtk_array *first, int components)
+/* Adds vectors of so many arrays, by their names. */
+static fg_status add_named(fg__vtk_vector **out, size_t *count, size_t *capacity,
+                           const fg__vtk *vtk, int components)
 {
-  size_t arrays;
-  const fg__vtk_array *second = arrays_of_file(vtk, &arrays);
-  for (size_t i = 0; i < arrays; ++i, ++second) {
-    if (second->place != first->place || !is_component(second) ||
-        !are_a_pair(first->name, second->name, NULL))
+  static const fg__vector_rules rules = {0};
+  fg__vector *found = NULL;
+  size_t terms, all = 0;
+  fg__term *term = list_components(&terms, vtk);
+  fg_status status = term && fg__vectors_find(&found, &all, term, terms, &rules)
+                         ? FG_STATUS_OK
+                         : fg__fail_memory(vtk->context, "names of arrays", 0);
+  for (size_t i = 0; i < all && status == FG_STATUS_OK; ++i) {
+    const int *c = found[i].component;
+    if (found[i].is_upright || found[i].polar.sense != 0 || (components == 3 && c[2] < 0))
       continue;
-    const fg__vtk_array *third = components == 3 ? find_third(vtk, first, second) : NULL;
-    if (components == 3 && !third)
-      continue;
-    fg_status status = add(
-        out, count, capacity, vtk,
-        (fg__vtk_vector){.name = {first->name, second->name, third ? third->name : NULL},
-                         .names = components,
-                         .components = components,
-                         .place = first->place,
-                         .found_by = "names",
-                         .units = first->units});
-    if (status != FG_STATUS_OK)
-      return status;
+    const bool volume = components == 3;
+    status = add(out, count, capacity, vtk,
+                 (fg__vtk_vector){.name = {term[c[0]].name, term[c[1]].name,
+                                           volume ? term[c[2]].name : NULL},
+                                  .names = components,
+                                  .components = components,
+                                  .place = (fg__vtk_place)term[c[0]].group,
+                                  .rank = BY_NAMES + found[i].rank,
+                                  .found_by = found[i].found_by,
+                                  .units = term[c[0]].units});
   }
-  return FG_STATUS_OK;
-}
-
-/* Vectors that the file marks as such come first, then vector variables, then pairs. */
-static int rank(const fg__vtk *vtk, const fg__vtk_vector *vector)
-{
-  if (vector->names > 1)
-    return 2;
-  const char *active = fg__vtk_home(vtk, 0)->vectors[vector->place];
-  return active && strcmp(active, vector->name[0]) == 0 ? 0 : 1;
+  free(found);
+  free(term);
+  return status;
 }
 
 static bool is_the_same(const fg__vtk_vector *a, const fg__vtk_vector *b)
@@ -166,14 +141,14 @@ static bool is_the_same(const fg__vtk_vector *a, const fg__vtk_vector *b)
 
 /* Leaves one of the vectors that have one name: a name on points and on cells is one
  * quantity, of which the one that is marked is taken, else the points'. */
-static size_t drop_repeated(fg__vtk_vector *vectors, size_t count, const fg__vtk *vtk)
+static size_t drop_repeated(fg__vtk_vector *vectors, size_t count)
 {
   size_t kept = 0;
   for (size_t i = 0; i < count; ++i) {
     size_t k = 0;
     while (k < kept && !is_the_same(&vectors[k], &vectors[i]))
       ++k;
-    const int better = k < kept ? rank(vtk, &vectors[k]) - rank(vtk, &vectors[i]) : 1;
+    const int better = k < kept ? vectors[k].rank - vectors[i].rank : 1;
     if (better > 0 || (better == 0 && vectors[i].place == FG__VTK_POINTS))
       vectors[k] = vectors[i];
     kept += k == kept;
@@ -192,15 +167,13 @@ static fg_status list_vectors(fg__vtk_vector **out, size_t *count, const fg__vtk
   size_t arrays;
   const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
   for (size_t i = 0; i < arrays && status == FG_STATUS_OK; ++i, ++array) {
-    if (is_vector(vtk, array)) {
-      if (components == 0 || array->components == components)
-        status = add(out, count, &capacity, vtk, vector_of(vtk, array));
-    } else if (is_component(array)) {
-      status = add_pairs(out, count, &capacity, vtk, array, components == 3 ? 3 : 2);
-    }
+    if (is_vector(vtk, array) && (components == 0 || array->components == components))
+      status = add(out, count, &capacity, vtk, vector_of(vtk, array));
   }
+  if (status == FG_STATUS_OK)
+    status = add_named(out, count, &capacity, vtk, components == 3 ? 3 : 2);
   if (*count > 0)
-    *count = drop_repeated(*out, *count, vtk);
+    *count = drop_repeated(*out, *count);
   if (status != FG_STATUS_OK) {
     free(*out);
     *out = NULL;
@@ -341,13 +314,12 @@ static fg_status fail_none(const fg__vtk *vtk)
 static fg_status choose_among(fg__vtk_vector *out, const fg__vtk *vtk,
                               fg__vtk_vector *vectors, size_t count)
 {
-  int best = 2;
-  for (size_t i = 0; i < count; ++i)
-    if (rank(vtk, &vectors[i]) < best)
-      best = rank(vtk, &vectors[i]);
+  int best = vectors[0].rank;
+  for (size_t i = 1; i < count; ++i)
+    best = vectors[i].rank < best ? vectors[i].rank : best;
   size_t kept = 0;
   for (size_t i = 0; i < count; ++i)
-    if (rank(vtk, &vectors[i]) == best)
+    if (vectors[i].rank == best)
       vectors[kept++] = vectors[i];
   if (kept > 1)
     return fail_ambiguous(vtk, vectors, kept);

@@ -214,13 +214,13 @@ static void several_volumes_of_vectors_are_ambiguous(void **state)
   char file[EXAMPLE_FILE_BYTES];
   fg_field *field = NULL;
   example_image(file, "", VOLUME,
-                POINTS(SCALAR("u", TWENTYSEVEN) SCALAR("v", TWENTYSEVEN)
-                           SCALAR("w", TWENTYSEVEN) SCALAR("bx", TWENTYSEVEN)
+                POINTS(SCALAR("cx", TWENTYSEVEN) SCALAR("cy", TWENTYSEVEN)
+                           SCALAR("cz", TWENTYSEVEN) SCALAR("bx", TWENTYSEVEN)
                                SCALAR("by", TWENTYSEVEN) SCALAR("bz", TWENTYSEVEN)
                                    SCALAR("ax", TWENTYSEVEN) SCALAR("ay", TWENTYSEVEN)));
   assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_ARGUMENT);
   assert_non_null(strstr(fg_context_message(*state), "2 vectors"));
-  assert_non_null(strstr(fg_context_message(*state), "u,v,w | bx,by,bz"));
+  assert_non_null(strstr(fg_context_message(*state), "cx,cy,cz | bx,by,bz"));
 }
 
 /* Two layers of points are a plane with a mean, as ever. */

@@ -7,10 +7,10 @@
 #ifndef FG__VTK_H
 #define FG__VTK_H
 
-#include "read/cells/set.h"
+#include "decode/signature.h"
+#include "interpret/time_words.h"
 #include "read/format.h"
-#include "read/signature.h"
-#include "read/time_words.h"
+#include "sample/cells/set.h"
 
 typedef enum fg__vtk_type {
   FG__VTK_UNKNOWN = 0, /* String, Bit, ... */
@@ -272,6 +272,7 @@ typedef struct fg__vtk_vector {
   int names;
   int components;
   fg__vtk_place place;
+  int rank; /* the smallest is the best */
   const char *found_by;
   const char *units;
 } fg__vtk_vector;

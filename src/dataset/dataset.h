@@ -1,0 +1,198 @@
+/* What a file holds, whichever its format: variables along dimensions, as xarray and the
+ * CF conventions have them. A decoder (decode/) fills it from bytes and knows nothing of
+ * vectors, times or maps; interpret/ finds those in it and knows nothing of formats. */
+#ifndef FG__DATASET_H
+#define FG__DATASET_H
+
+#include "base/context.h"
+#include "terms/coordinates.h"
+
+enum {
+  FG__DATASET_FILES = 3, /* the input and two more with what it lacks */
+  FG__RANK = 8,          /* more dimensions than any field has */
+  FG__TEXT_BYTES = 256,  /* that are read of a text */
+  FG__DIMENSION_BYTES = 257,
+  FG__NAME_BYTES = 514, /* group/variable */
+  FG__MOST_FILLS = 16
+};
+
+typedef struct fg__dataset fg__dataset;
+
+typedef struct fg__attribute {
+  char *name;
+  char *text;     /* NULL: it is of numbers */
+  double *number; /* [count] */
+  size_t count;
+  bool is_floating;
+} fg__attribute;
+
+typedef struct fg__dimension {
+  char name[FG__DIMENSION_BYTES];
+  int file;
+  int id;        /* the decoder's own */
+  size_t length; /* 1 where one sample is chosen */
+  size_t chosen; /* the first sample that is read: 0, or the chosen one */
+  bool is_chosen;
+  bool unlimited;
+} fg__dimension;
+
+typedef enum fg__type {
+  FG__TYPE_OTHER = 0,
+  FG__TYPE_LETTERS, /* its last dimension counts the letters of texts */
+  FG__TYPE_TEXTS,
+  FG__TYPE_INT8,
+  FG__TYPE_UINT8,
+  FG__TYPE_INT16,
+  FG__TYPE_UINT16,
+  FG__TYPE_INT32,
+  FG__TYPE_UINT32,
+  FG__TYPE_INT64,
+  FG__TYPE_UINT64,
+  FG__TYPE_FLOAT32,
+  FG__TYPE_FLOAT64
+} fg__type;
+
+typedef struct fg__variable {
+  fg__dataset *owner;
+  int file;               /* below FG__DATASET_FILES */
+  int group;              /* of the dataset's groups */
+  char *name;             /* with the names of its groups: "ocean/u" */
+  const char *plain_name; /* the last part */
+  const char *path;       /* of its file */
+  fg__type type;
+  int rank;                /* FG__RANK + 1 when it has more */
+  int dimension[FG__RANK]; /* indices into the dataset's dimensions */
+  int element; /* 1 or 2: of a vector variable, whose last dimension (of length 2) is not
+                  counted in `rank`; 0: it is a whole variable */
+  fg__attribute *attribute;
+  size_t attributes;
+  double fill;     /* of samples that were never written; NaN: there is none */
+  bool in_one_run; /* its samples lie in the file one after the other */
+  int place, id;   /* the decoder's own */
+  /* by interpret/, once a dataset is open */
+  fg__role geographic; /* longitude (X), latitude (Y), or neither */
+} fg__variable;
+
+/* What a format must do for the variables of a file; each returns OK, or a status with
+ * its message. */
+typedef struct fg__decoder {
+  /* Numbers as they are stored; indices are the file's. */
+  fg_status (*fetch)(const fg__variable *variable, const size_t *start,
+                     const size_t *count, double *out);
+  /* Texts [first, first + count) of a variable of texts, or of rows of letters: each
+   * takes `size` bytes, ended by NUL. */
+  fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
+                           char *out, size_t size);
+  void (*close)(void *state);
+} fg__decoder;
+
+typedef struct fg__dataset_file {
+  char *path;
+  size_t size; /* bytes */
+  const fg__decoder *decoder;
+  void *state;   /* the decoder's */
+  bool was_read; /* numbers of it, since samples were chosen */
+} fg__dataset_file;
+
+/* Numbers that a user takes for missing values: fg_read_options.missing. */
+typedef struct fg__missing_numbers {
+  double number[FG__MOST_FILLS];
+  int count;
+  bool none; /* every number is a value */
+} fg__missing_numbers;
+
+bool fg__is_given_missing(const fg__missing_numbers *given, double value);
+
+/* The input and up to two files with what it lacks: the other component, the mesh. */
+struct fg__dataset {
+  fg_context *context;
+  fg__dataset_file file[FG__DATASET_FILES];
+  int files;
+  int component_files; /* so many of them, from the first, may hold components */
+  fg__dimension *dimensions;
+  size_t dimension_count, dimension_capacity;
+  fg__variable *variables;
+  size_t variable_count, variable_capacity;
+  fg__variable *groups; /* only their attributes; of each file its own first */
+  size_t group_count, group_capacity;
+  fg__missing_numbers missing;
+};
+
+/* For decoders: begin a file, whose state is theirs to set, and add what it has, each
+ * group before its variables. Texts are copied; pointers are borrowed until the next of
+ * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
+ * too many), MEMORY. */
+fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
+                            size_t size, const fg__decoder *decoder);
+fg__dimension *fg__dataset_add_dimension(fg__dataset *dataset, const char *name,
+                                         size_t length);
+fg__variable *fg__dataset_add_variable(fg__dataset *dataset, const char *group,
+                                       const char *name);
+fg__variable *fg__dataset_add_group(fg__dataset *dataset);
+fg_status fg__variable_add_text(fg__variable *variable, const char *name,
+                                const char *text, size_t length);
+fg_status fg__variable_add_numbers(fg__variable *variable, const char *name,
+                                   const double *number, size_t count, bool is_floating);
+
+void fg__dataset_close(fg__dataset *dataset);
+
+/* The variable of that name (whole, or its last part), or NULL. */
+const fg__variable *fg__dataset_find(const fg__dataset *dataset, const char *name);
+
+/* The attributes of a variable's file, and of its group, which may be the file. */
+const fg__variable *fg__file_of(const fg__variable *variable);
+const fg__variable *fg__group_of(const fg__variable *variable);
+
+bool fg__is_number(const fg__variable *variable);
+bool fg__is_floating(const fg__variable *variable);
+
+/* Bytes of a number of a type; of others 1. */
+size_t fg__type_bytes(fg__type type);
+
+/* A text attribute without white space at its ends, cut to the buffer; "" when there is
+ * none. Returns whether there is one. */
+bool fg__attribute_text(const fg__variable *variable, const char *attribute, char *out,
+                        size_t size);
+
+/* The numbers of an attribute, at most `capacity`; returns how many. */
+int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
+                          double *out, int capacity);
+
+/* The attribute of that name, or NULL. */
+const fg__attribute *fg__attribute_find(const fg__variable *variable,
+                                        const char *attribute);
+
+/* Numbers of a variable as they are stored; indices along a dimension with a chosen
+ * sample count from that. FILE_FORMAT, MEMORY. */
+fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
+                             const size_t *count, double *out);
+fg_status fg__variable_fetch_one(const fg__variable *variable, const size_t *index,
+                                 double *out);
+
+/* Texts along the first dimension of a variable of texts, or of letters with two; indices
+ * are the file's. */
+fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
+                                   size_t count, char *out, size_t size);
+
+/* packing.c. How a variable's samples are packed, and which are missing (CF conventions,
+ * chapters 2.5 and 8.1). */
+typedef struct fg__packing {
+  double scale, offset;
+  double fill[FG__MOST_FILLS]; /* in stored values */
+  int fills;
+  double least, largest; /* valid range */
+  bool range_unpacked;   /* the range is of unpacked values, not of stored ones */
+  double wrap;           /* added to negative values of _Unsigned data, or 0 */
+  const fg__missing_numbers *given;
+} fg__packing;
+
+typedef struct fg__missing_counts {
+  size_t fill, range, not_a_number; /* samples that are missing, by reason */
+} fg__missing_counts;
+
+fg__packing fg__packing_of(const fg__variable *variable);
+
+/* The value of a stored number, NaN when it is missing. */
+double fg__unpack(const fg__packing *packing, double stored, fg__missing_counts *missing);
+
+#endif

@@ -1,0 +1,142 @@
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+#include "dataset/dataset.h"
+#include "terms/units.h"
+
+static double round_to_type(double value, fg__type type)
+{
+  return type == FG__TYPE_FLOAT32 && fabs(value) <= (double)FLT_MAX ? (double)(float)value
+                                                                    : value;
+}
+
+static void find_fills(fg__packing *p, const fg__variable *v)
+{
+  p->fills = fg__attribute_numbers(v, "_FillValue", p->fill, 1);
+  if (p->fills == 0 && !isnan(v->fill))
+    p->fill[p->fills++] = v->fill;
+  p->fills += fg__attribute_numbers(v, "missing_value", p->fill + p->fills,
+                                    FG__MOST_FILLS - p->fills);
+  for (int i = 0; i < p->fills; ++i)
+    p->fill[i] = round_to_type(p->fill[i], v->type);
+}
+
+/* Whether an attribute of the valid range has the type of unpacked values. */
+static bool has_floating_range(const fg__variable *v)
+{
+  static const char *const names[] = {"valid_range", "valid_max", "valid_min"};
+  for (int n = 0; n < 3; ++n) {
+    const fg__attribute *a = fg__attribute_find(v, names[n]);
+    if (a && a->count > 0)
+      return a->is_floating;
+  }
+  return false;
+}
+
+static void find_range(fg__packing *p, const fg__variable *v, bool packed)
+{
+  double range[2];
+  p->least = -HUGE_VAL;
+  p->largest = HUGE_VAL;
+  if (fg__attribute_numbers(v, "valid_range", range, 2) == 2) {
+    p->least = range[0];
+    p->largest = range[1];
+  } else {
+    fg__attribute_numbers(v, "valid_min", &p->least, 1);
+    fg__attribute_numbers(v, "valid_max", &p->largest, 1);
+  }
+  /* NUG, appendix A: a range of the unpacked type is of the unpacked values */
+  p->range_unpacked = packed && has_floating_range(v) && !fg__is_floating(v);
+  if (!p->range_unpacked) {
+    p->least = round_to_type(p->least, v->type);
+    p->largest = round_to_type(p->largest, v->type);
+  }
+  if (!(p->least <= p->largest)) { /* an empty range is a mistake and ignored */
+    p->least = -HUGE_VAL;
+    p->largest = HUGE_VAL;
+  }
+}
+
+static void find_unsigned(fg__packing *p, const fg__variable *v)
+{
+  char text[FG__TEXT_BYTES];
+  if (!fg__attribute_text(v, "_Unsigned", text, sizeof text) ||
+      strcasecmp(text, "true") != 0)
+    return;
+  p->wrap = v->type == FG__TYPE_INT8    ? 256.0
+            : v->type == FG__TYPE_INT16 ? 65536.0
+            : v->type == FG__TYPE_INT32 ? 4294967296.0
+                                        : 0.0;
+  for (int i = 0; i < p->fills; ++i)
+    if (p->fill[i] < 0.0)
+      p->fill[i] += p->wrap;
+  if (p->wrap > 0.0 && !p->range_unpacked) {
+    p->least += p->least < 0.0 ? p->wrap : 0.0;
+    p->largest += p->largest < 0.0 ? p->wrap : 0.0;
+  }
+}
+
+bool fg__is_given_missing(const fg__missing_numbers *given, double value)
+{
+  for (int n = 0; n < given->count; ++n)
+    if ((float)value >= (float)given->number[n] &&
+        (float)value <= (float)given->number[n])
+      return true;
+  return false;
+}
+
+/* Degrees of which those in the west or south are positive are read as if packed. */
+static bool counts_west_or_south(const fg__variable *v)
+{
+  char text[FG__TEXT_BYTES];
+  fg__unit unit = {.factor = 1.0};
+  if (fg__attribute_text(v, "units", text, sizeof text))
+    fg__unit_read(&unit, text);
+  return unit.factor < 0.0;
+}
+
+fg__packing fg__packing_of(const fg__variable *variable)
+{
+  fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
+  const int scaled = fg__attribute_numbers(variable, "scale_factor", &p.scale, 1);
+  const int moved = fg__attribute_numbers(variable, "add_offset", &p.offset, 1);
+  find_fills(&p, variable);
+  find_range(&p, variable, scaled + moved > 0);
+  find_unsigned(&p, variable);
+  if (counts_west_or_south(variable)) {
+    const double least = p.least;
+    p.scale = -p.scale;
+    p.offset = -p.offset;
+    p.least = p.range_unpacked ? -p.largest : least;
+    p.largest = p.range_unpacked ? -least : p.largest;
+  }
+  return p;
+}
+
+double fg__unpack(const fg__packing *packing, double stored, fg__missing_counts *missing)
+{
+  if (isnan(stored)) {
+    ++missing->not_a_number;
+    return stored;
+  }
+  if (stored < 0.0)
+    stored += packing->wrap;
+  for (int i = 0; i < packing->fills; ++i)
+    if (stored == packing->fill[i]) {
+      ++missing->fill;
+      return (double)NAN;
+    }
+  const double value = stored * packing->scale + packing->offset;
+  if (packing->given->count > 0 && fg__is_given_missing(packing->given, value)) {
+    ++missing->fill;
+    return (double)NAN;
+  }
+  const double ranged = packing->range_unpacked ? value : stored;
+  if (ranged < packing->least || ranged > packing->largest) {
+    ++missing->range;
+    return (double)NAN;
+  }
+  return value;
+}

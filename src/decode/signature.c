@@ -1,0 +1,63 @@
+#include "decode/signature.h"
+
+#include <string.h>
+
+/* A file's first tag begins this early, comments before it included. */
+enum { MARK_WITHIN = 4096 };
+
+/* A GRIB message follows a heading this early. */
+enum { GRIB_WITHIN = 256 };
+
+fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
+{
+  static const unsigned char hdf5[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
+  if (size >= sizeof hdf5 && memcmp(bytes, hdf5, sizeof hdf5) == 0)
+    return FG__NC_HDF5;
+  if (size >= 4 && memcmp(bytes, "CDF", 3) == 0) {
+    if (bytes[3] == 1)
+      return FG__NC_CLASSIC;
+    if (bytes[3] == 2)
+      return FG__NC_OFFSET64;
+    if (bytes[3] == 5)
+      return FG__NC_CDF5;
+  }
+  return FG__NC_NONE;
+}
+
+bool fg__is_vtk_xml(const unsigned char *bytes, size_t size)
+{
+  static const char mark[] = "<VTKFile";
+  size_t at = 0;
+  if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) /* a byte order mark */
+    at = 3;
+  while (at < size && strchr(" \t\r\n", bytes[at]) && bytes[at])
+    ++at;
+  if (at == size || bytes[at] != '<')
+    return false;
+  for (; at + sizeof mark - 1 <= size && at < MARK_WITHIN; ++at)
+    if (memcmp(bytes + at, mark, sizeof mark - 1) == 0)
+      return true;
+  return false;
+}
+
+bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size)
+{
+  static const char mark[] = "# vtk DataFile Version";
+  return size >= sizeof mark - 1 && memcmp(bytes, mark, sizeof mark - 1) == 0;
+}
+
+bool fg__is_grib_start(const unsigned char *bytes, size_t size)
+{
+  return size >= 8 && memcmp(bytes, "GRIB", 4) == 0;
+}
+
+bool fg__is_grib(const unsigned char *bytes, size_t size)
+{
+  if (fg__is_grib_start(bytes, size))
+    return true;
+  for (size_t at = 0; at + 8 <= size && at < GRIB_WITHIN; ++at)
+    if (fg__is_grib_start(bytes + at, size - at) &&
+        (bytes[at + 7] == 1 || bytes[at + 7] == 2))
+      return true;
+  return false;
+}

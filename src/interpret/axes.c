@@ -1,0 +1,185 @@
+/* Coordinates along one axis: read, unwrapped, sorted to ascend, with a period of 360
+ * degrees where longitudes go round the globe. */
+#include "base/memory.h"
+#include "interpret/interpret.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Longitudes go round the globe when the gap to 360 degrees is one cell, within a quarter
+ * of a cell: uneven spacing needs that much, and regional grids have larger gaps. */
+static const double CLOSING_TOLERANCE = 0.25;
+
+/* A column repeats the first when it lies within a hundredth of a cell of it; rounding to
+ * float is smaller than that on grids down to 0.003 degrees. */
+static const double REPEATED_TOLERANCE = 0.01;
+
+/* Reads along the axis's dimension, at index 0 of all others. */
+static fg_status read_coordinates(const fg__grid_axis *axis, const fg__dataset *data,
+                                  const fg__variable *coordinate)
+{
+  double *out = axis->coordinate;
+  size_t start[FG__RANK] = {0};
+  size_t size[FG__RANK];
+  for (int k = 0; k < coordinate->rank; ++k) {
+    const bool along =
+        fg__alike_dimension(data, coordinate->dimension[k], axis->dimension);
+    start[k] = along ? axis->first : 0;
+    size[k] = along ? axis->size : 1;
+  }
+  const fg_status status = fg__variable_fetch(coordinate, start, size, out);
+  if (status != FG_STATUS_OK)
+    return status;
+  const fg__packing p = fg__packing_of(coordinate);
+  for (size_t i = 0; i < axis->size; ++i)
+    out[i] = out[i] * p.scale + p.offset;
+  return FG_STATUS_OK;
+}
+
+/* Adds multiples of 360 degrees where longitudes jump from 180 to -180 or from 360 to
+ * 0. */
+static void unwrap(double *x, size_t count)
+{
+  double turn = 0.0;
+  for (size_t i = 1; i < count; ++i) {
+    const double step = x[i] + turn - x[i - 1];
+    if (fabs(step) > 180.0 && fabs(step) < 720.0)
+      turn -= 360.0 * round(step / 360.0);
+    x[i] += turn;
+  }
+}
+
+static void reverse(double *x, size_t count)
+{
+  for (size_t i = 0; i < count / 2; ++i) {
+    const double swapped = x[i];
+    x[i] = x[count - 1 - i];
+    x[count - 1 - i] = swapped;
+  }
+}
+
+static bool check_coordinates(fg__grid *grid, const double *x, size_t count,
+                              const char *name)
+{
+  for (size_t i = 0; i < count; ++i)
+    if (!isfinite(x[i]) || fabs(x[i]) > 1e18) {
+      fg__set_unusable(grid->unusable,
+                       "coordinate %zu of '%s' is %g, not a usable number", i, name,
+                       x[i]);
+      return false;
+    }
+  return true;
+}
+
+static bool check_order(fg__grid *grid, const double *x, size_t count, bool reversed,
+                        const char *name)
+{
+  for (size_t i = 1; i < count; ++i)
+    if (!(x[i] > x[i - 1])) {
+      const size_t before = reversed ? count - 1 - i : i - 1;
+      fg__set_unusable(
+          grid->unusable,
+          "axis '%s' is not strictly monotonic: %g and %g at samples %zu and "
+          "%zu",
+          name, reversed ? x[i] : x[i - 1], reversed ? x[i - 1] : x[i], before,
+          before + 1);
+      return false;
+    }
+  return true;
+}
+
+/* Drops columns that repeat others at 360 degrees, and sets the period where the
+ * remaining ones go round the globe. */
+static void close_circle(fg__grid_axis *axis)
+{
+  const double *x = axis->coordinate;
+  size_t n = axis->size;
+  const double spacing = (x[n - 1] - x[0]) / (double)(n - 1);
+  const double circle = 360.0 - REPEATED_TOLERANCE * spacing;
+  while (n > 2 && x[n - 1] - x[0] >= circle)
+    --n;
+  const double cell = (x[n - 1] - x[0]) / (double)(n - 1);
+  const double gap = 360.0 - (x[n - 1] - x[0]);
+  if (fabs(gap - cell) > CLOSING_TOLERANCE * cell)
+    return;
+  axis->period = 360.0;
+  if (axis->reversed)
+    axis->first += axis->size - n;
+  axis->size = n;
+}
+
+static void describe_axis(fg__grid_axis *axis, const fg__variable *coordinate, int k)
+{
+  char text[FG__TEXT_BYTES];
+  fg__attribute_text(coordinate, "units", text, sizeof text);
+  axis->quantity = fg__units_read(text, axis->units, sizeof axis->units);
+  fg__attribute_text(coordinate, "standard_name", text, sizeof text);
+  snprintf(axis->name, sizeof axis->name, "%s", coordinate->plain_name);
+  const fg__role geographic = coordinate->geographic;
+  if (strncmp(text, "grid_l", 6) == 0) {
+    /* rotated pole: degrees, neither east nor north */
+    axis->quantity = FG__QUANTITY_DEGREES;
+    snprintf(axis->units, sizeof axis->units, "°");
+    snprintf(axis->name, sizeof axis->name, "grid %s", text + 5);
+  } else if ((int)geographic == k && k == FG__ROLE_X) {
+    axis->quantity = FG__QUANTITY_DEGREES_EAST;
+    snprintf(axis->units, sizeof axis->units, "°E");
+    snprintf(axis->name, sizeof axis->name, "longitude");
+  } else if ((int)geographic == k) {
+    axis->quantity = FG__QUANTITY_DEGREES_NORTH;
+    snprintf(axis->units, sizeof axis->units, "°N");
+    snprintf(axis->name, sizeof axis->name, "latitude");
+  } else if (strncmp(text, "projection_", 11) == 0) {
+    snprintf(axis->name, sizeof axis->name, "%s", k == FG__ROLE_X ? "x" : "y");
+  }
+}
+
+static bool is_longitude(const fg__grid_axis *axis)
+{
+  return axis->quantity == FG__QUANTITY_DEGREES_EAST ||
+         strcmp(axis->name, "grid longitude") == 0;
+}
+
+fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
+                             const fg__variable *coordinate)
+{
+  fg__grid_axis *axis = &grid->axis[k];
+  describe_axis(axis, coordinate, k);
+  free(axis->coordinate);
+  axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
+  if (!axis->coordinate)
+    return fg__fail_memory(data->context, "an axis",
+                           axis->size * sizeof *axis->coordinate);
+  fg_status status = read_coordinates(axis, data, coordinate);
+  if (status != FG_STATUS_OK ||
+      !check_coordinates(grid, axis->coordinate, axis->size, coordinate->name))
+    return status;
+  if (is_longitude(axis))
+    unwrap(axis->coordinate, axis->size);
+  axis->reversed = axis->coordinate[axis->size - 1] < axis->coordinate[0];
+  if (axis->reversed)
+    reverse(axis->coordinate, axis->size);
+  if (check_order(grid, axis->coordinate, axis->size, axis->reversed, coordinate->name) &&
+      is_longitude(axis))
+    close_circle(axis);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k)
+{
+  fg__grid_axis *axis = &grid->axis[k];
+  free(axis->coordinate);
+  axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
+  if (!axis->coordinate)
+    return fg__fail_memory(data->context, "an axis",
+                           axis->size * sizeof *axis->coordinate);
+  for (size_t i = 0; i < axis->size; ++i)
+    axis->coordinate[i] = (double)i;
+  axis->quantity = FG__QUANTITY_UNKNOWN;
+  axis->units[0] = '\0';
+  snprintf(axis->name, sizeof axis->name, "%.*s", FG__TEXT_BYTES - 1,
+           data->dimensions[axis->dimension].name);
+  return FG_STATUS_OK;
+}

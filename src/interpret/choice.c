@@ -1,0 +1,302 @@
+/* Selects the pair to read: the one that the options name, or the only one of best
+ * rank. */
+#include "base/memory.h"
+#include "interpret/interpret.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct candidates {
+  fg__pair *pair;
+  size_t count;
+} candidates;
+
+/* Writes "u,v", or "u,v,w" of a volume, or the name of a vector variable. */
+static int write_names(char *out, size_t size, const fg__pair *pair, bool volume)
+{
+  if (pair->component[0]->element)
+    return snprintf(out, size, "%s", pair->component[0]->name);
+  return snprintf(out, size, "%s,%s%s%s", pair->component[0]->name,
+                  pair->component[1]->name, volume ? "," : "",
+                  volume ? pair->component[2]->name : "");
+}
+
+/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not
+ * 0. */
+static void list_pairs(const candidates *all, const int *dimension, char *out,
+                       size_t size)
+{
+  size_t n = 0;
+  out[0] = '\0';
+  for (size_t i = 0; i < all->count; ++i) {
+    if (dimension && dimension[i] == 0)
+      continue;
+    const char *between = n > 0 ? "; " : "";
+    if (n + strlen(between) >= size)
+      return;
+    strcpy(out + n, between);
+    const size_t start = n + strlen(between);
+    const int written = write_names(out + start, size - start, &all->pair[i],
+                                    dimension && dimension[i] == 3);
+    if (written < 0 || (size_t)written >= size - start) {
+      out[n] = '\0';
+      return;
+    }
+    n = start + (size_t)written;
+  }
+}
+
+/* A name may begin with the slash of the root group. */
+static const fg__variable *find_named(const fg__dataset *data, const char *name,
+                                      int preferred)
+{
+  name += name[0] == '/';
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (v->file == preferred &&
+        (strcmp(v->name, name) == 0 || strcmp(v->plain_name, name) == 0))
+      return v;
+  }
+  return fg__dataset_find(data, name);
+}
+
+/* The first direction among the variables of two dimensions or more; NULL: none. */
+static const fg__variable *find_direction(const fg__dataset *data)
+{
+  fg__polar ignored;
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__term term = fg__term_of(&data->variables[i]);
+    if (data->variables[i].rank >= 2 && fg__direction_read(&ignored, &term))
+      return &data->variables[i];
+  }
+  return NULL;
+}
+
+static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
+                                   const char *name)
+{
+  char list[1024];
+  fg_status status =
+      fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
+               data->file[data->component_files - 1].path, name);
+  list_pairs(all, NULL, list, sizeof list);
+  if (list[0])
+    fg__hint(data->context, "pairs in it: %s", list);
+  return status;
+}
+
+static fg_status fail_names(const fg__dataset *data, const candidates *all,
+                            const char *vars)
+{
+  char list[1024];
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           strchr(vars, ',')
+               ? "%s: '%s' is not two or three names with commas between"
+               : "%s: '%s' is one variable, and a velocity has two or three components",
+           data->file[0].path, vars);
+  list_pairs(all, NULL, list, sizeof list);
+  if (list[0])
+    fg__hint(data->context, "pairs in it: %s", list);
+  else
+    fg__hint(data->context, "name two variables: --vars U,V; or three: --vars U,V,W");
+  return FG_STATUS_ARGUMENT;
+}
+
+/* Splits "u,v" or "u,v,w"; returns the number of names, 0 for anything else. */
+static int split_names(char name[3][FG__NAME_BYTES], const char *vars)
+{
+  int count = 0;
+  while (count < 3) {
+    const size_t length = strcspn(vars, ",");
+    if (length == 0 || length >= FG__NAME_BYTES)
+      return 0;
+    memcpy(name[count], vars, length);
+    name[count++][length] = '\0';
+    if (!vars[length])
+      return count > 1 ? count : 0;
+    vars += length + 1;
+  }
+  return 0;
+}
+
+/* Refuses "v,u" of a pair whose standard names are those of u and v. */
+static fg_status check_order(const fg__dataset *data, const candidates *all,
+                             const fg__pair *pair)
+{
+  for (size_t i = 0; i < all->count; ++i) {
+    const fg__pair *known = &all->pair[i];
+    if (known->component[0] != pair->component[1] ||
+        known->component[1] != pair->component[0] ||
+        strcmp(known->found_by, "standard_name") != 0)
+      continue;
+    char names[2 * FG__NAME_BYTES];
+    write_names(names, sizeof names, known, false);
+    fg__fail(
+        data->context, FG_STATUS_ARGUMENT,
+        "%s: by their standard names '%s' is the second component, and '%s' the first",
+        data->file[0].path, pair->component[0]->name, pair->component[1]->name);
+    fg__hint(data->context, "--vars %s", names);
+    return FG_STATUS_ARGUMENT;
+  }
+  return FG_STATUS_OK;
+}
+
+static fg_status choose_named(fg__pair *out, const fg__dataset *data,
+                              const candidates *all, const char *vars)
+{
+  char name[3][FG__NAME_BYTES];
+  const fg__variable *vector = find_named(data, vars, 0);
+  if (vector && vector->element == 1) {
+    *out = (fg__pair){.component = {vector, vector + 1}, .found_by = "request"};
+    return FG_STATUS_OK;
+  }
+  const int count = split_names(name, vars);
+  if (count == 0)
+    return fail_names(data, all, vars);
+  *out = (fg__pair){.found_by = "request", .volume = count == 3};
+  for (int k = 0; k < count; ++k) {
+    out->component[k] = find_named(data, name[k], k > 0 ? data->component_files - 1 : 0);
+    if (!out->component[k])
+      return fail_unknown_name(data, all, name[k]);
+  }
+  for (int k = 0; k < count; ++k)
+    if (out->component[k] == out->component[(k + 1) % count])
+      return fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
+                      data->file[0].path, count == 2 ? "both" : "two", name[k]);
+  if (count == 2)
+    fg__settle_polar(out);
+  return check_order(data, all, out);
+}
+
+static fg_status fail_unusable(const fg__dataset *data, const fg__pair *pair,
+                               const fg__grid *grid)
+{
+  char names[3 * FG__NAME_BYTES];
+  write_names(names, sizeof names, pair, pair->volume);
+  fg_status status = fg__fail(data->context, FG_STATUS_UNSUPPORTED, "%s: %s: %s",
+                              data->file[0].path, names, grid->unusable);
+  if (grid->hint[0])
+    fg__hint(data->context, "%s", grid->hint);
+  return status;
+}
+
+/* Three components were named of what is read as a plane. */
+static fg_status fail_flat(const fg__dataset *data, const fg__pair *pair)
+{
+  char names[2 * FG__NAME_BYTES];
+  write_names(names, sizeof names, pair, false);
+  fg__fail(data->context, FG_STATUS_UNSUPPORTED,
+           "%s: %s lie on a grid that is no volume: '%s' cannot be read with them",
+           data->file[0].path, names, pair->component[2]->name);
+  fg__hint(data->context, "--vars %s reads the plane of one level", names);
+  return FG_STATUS_UNSUPPORTED;
+}
+
+/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
+ * none. */
+static void list_variables(char *out, size_t size, const fg__dataset *data)
+{
+  size_t used = 0;
+  out[0] = '\0';
+  for (int turn = 0; turn < 2; ++turn)
+    for (size_t i = 0; i < data->variable_count; ++i) {
+      const fg__variable *v = &data->variables[i];
+      const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
+      if (is_field == (turn == 1) || v->element == 2 || used + strlen(v->name) + 8 > size)
+        continue;
+      used +=
+          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
+    }
+}
+
+static fg_status fail_no_vectors(const fg__dataset *data)
+{
+  char names[1024];
+  list_variables(names, sizeof names, data);
+  fg_status status =
+      fg__fail(data->context, FG_STATUS_UNSUPPORTED,
+               "%s: no vectors found among its %zu variable%s%s", data->file[0].path,
+               data->variable_count, data->variable_count == 1 ? "" : "s", names);
+  const fg__variable *direction = find_direction(data);
+  if (direction)
+    fg__hint(data->context, "name the speed with its direction: --vars SPEED,%s",
+             direction->name);
+  else if (data->component_files == 1)
+    fg__hint(data->context, "name the components with --vars U,V; when the other one is "
+                            "in a second file, add --vars-from FILE");
+  else
+    fg__hint(data->context, "name the components with --vars U,V");
+  return status;
+}
+
+static fg_status fail_ambiguous(const fg__dataset *data, const candidates *all,
+                                const int *usable, int count)
+{
+  char list[1024];
+  list_pairs(all, usable, list, sizeof list);
+  fg_status status =
+      fg__fail(data->context, FG_STATUS_ARGUMENT,
+               "%s: holds %d vectors, and it is not clear which is meant: %s",
+               data->file[0].path, count, list);
+  fg__hint(data->context, "choose one with --vars U,V");
+  return status;
+}
+
+/* The only usable pair of the best rank that has one, with its grid. */
+static fg_status choose_best(fg__pair *out, fg__grid *grid, const fg__dataset *data,
+                             const candidates *all, const fg_read_options *options)
+{
+  if (all->count == 0)
+    return fail_no_vectors(data);
+  int *usable = fg__allocate(all->count, sizeof *usable);
+  if (!usable)
+    return fg__fail_memory(data->context, "a choice", all->count * sizeof *usable);
+  fg_status status = FG_STATUS_OK;
+  fg__grid first_unusable = {0};
+  int count = 0;
+  for (size_t i = 0; i < all->count && status == FG_STATUS_OK; ++i) {
+    /* an unusable velocity is an error; another kind of vector does not replace it */
+    if (all->pair[0].is_velocity && !all->pair[i].is_velocity)
+      break;
+    if (count > 0 && all->pair[i].rank > out->rank)
+      break;
+    fg__grid found;
+    status = fg__grid_find(&found, data, &all->pair[i], options);
+    usable[i] = status == FG_STATUS_OK && !found.unusable[0] ? found.dimension : 0;
+    if (i == 0)
+      memcpy(&first_unusable, &found, sizeof found);
+    if (usable[i] > 0 && count++ == 0) {
+      *out = all->pair[i];
+      *grid = found;
+    } else {
+      fg__grid_clear(&found);
+    }
+  }
+  if (status == FG_STATUS_OK && count == 0)
+    status = fail_unusable(data, &all->pair[0], &first_unusable);
+  else if (status == FG_STATUS_OK && count > 1)
+    status = fail_ambiguous(data, all, usable, count);
+  free(usable);
+  return status;
+}
+
+fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *data,
+                            const fg_read_options *options)
+{
+  candidates all = {0};
+  fg_status status = fg__pairs_find(&all.pair, &all.count, data);
+  if (status == FG_STATUS_OK && options->vars) {
+    status = choose_named(pair, data, &all, options->vars);
+    if (status == FG_STATUS_OK)
+      status = fg__grid_find(grid, data, pair, options);
+    if (status == FG_STATUS_OK && grid->unusable[0])
+      status = fail_unusable(data, pair, grid);
+    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3)
+      status = fail_flat(data, pair);
+  } else if (status == FG_STATUS_OK) {
+    status = choose_best(pair, grid, data, &all, options);
+  }
+  free(all.pair);
+  return status;
+}

@@ -1,0 +1,192 @@
+/* Whether variables can be a vector's components: numeric, not larger than the file can
+ * hold, and at the same places. */
+#include "interpret/interpret.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Deflate compresses by at most 1032 (zlib's documentation); a field of more bytes than
+ * that times the file's size is not in the file. */
+static const size_t LARGEST_COMPRESSION = 1032;
+
+/* So many times or levels of two files are compared. */
+enum { MOST_COMPARED = 100000 };
+
+static void write_shape(char *out, size_t size, const fg__dataset *data,
+                        const fg__variable *v)
+{
+  size_t n = 0;
+  out[0] = '\0';
+  for (int k = 0; k < v->rank && k < FG__RANK && n < size; ++k)
+    n += (size_t)snprintf(out + n, size - n, "%s%zu", k > 0 ? " x " : "",
+                          data->dimensions[v->dimension[k]].length);
+}
+
+void fg__check_variable(fg__grid *grid, const fg__variable *v)
+{
+  if (v->type == FG__TYPE_LETTERS || v->type == FG__TYPE_TEXTS)
+    fg__set_unusable(grid->unusable, "'%s' holds text, not numbers", v->name);
+  else if (!fg__is_number(v))
+    fg__set_unusable(grid->unusable,
+                     "'%s' is of a type made by its author, not of numbers", v->name);
+  else if (v->rank < 2)
+    fg__set_unusable(grid->unusable, "'%s' has %d dimension%s; a field has two or more",
+                     v->name, v->rank, v->rank == 1 ? "" : "s");
+  else if (v->rank > FG__RANK)
+    fg__set_unusable(grid->unusable, "'%s' has more than %d dimensions", v->name,
+                     FG__RANK);
+}
+
+static bool fits_file(const fg__dataset *data, const fg__variable *v, size_t samples)
+{
+  return samples / LARGEST_COMPRESSION * fg__type_bytes(v->type) <=
+         data->file[v->file].size;
+}
+
+/* Whether numbers differ by no more than rounding; what is none in both is the same.
+ * Compares in blocks, so that a small file that declares large variables takes little
+ * memory. */
+static bool same_numbers(const fg__variable *a, const fg__variable *b, size_t n,
+                         double rounding)
+{
+  enum { AT_ONCE = 4096 };
+  double x[AT_ONCE], y[AT_ONCE];
+  for (size_t start = 0; start < n; start += AT_ONCE) {
+    const size_t count = n - start < AT_ONCE ? n - start : AT_ONCE;
+    if (fg__variable_fetch(a, &start, &count, x) ||
+        fg__variable_fetch(b, &start, &count, y))
+      return false;
+    for (size_t i = 0; i < count; ++i)
+      if (x[i] != y[i] && !(fabs(x[i] - y[i]) <= rounding) &&
+          !(isnan(x[i]) && isnan(y[i])))
+        return false;
+  }
+  return true;
+}
+
+/* Whether a file has longitudes in two dimensions, of which one is `dimension`. */
+static bool has_plane_along(const fg__dataset *data, int dimension)
+{
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (v->rank == 2 && v->geographic == FG__ROLE_X &&
+        (v->dimension[0] == dimension || v->dimension[1] == dimension))
+      return true;
+  }
+  return false;
+}
+
+/* Coordinates that only count samples (i and i_g of MITgcm) say nothing of places where
+ * the file has positions. */
+static bool only_count(const fg__dataset *data, const fg__variable *of_a,
+                       const fg__variable *of_b)
+{
+  return fg__may_be_index(of_a) && fg__may_be_index(of_b) &&
+         (has_plane_along(data, of_a->dimension[0]) ||
+          has_plane_along(data, of_b->dimension[0]));
+}
+
+static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
+                             const fg__variable *b, int k)
+{
+  const size_t n = data->dimensions[a->dimension[k]].length;
+  const fg__variable *of_a = fg__coordinate(data, a, k);
+  const fg__variable *of_b = fg__coordinate(data, b, k);
+  /* where a third file has the positions, they are found by the dimensions' names */
+  const bool by_name = data->files > data->component_files;
+  if (!of_a || !of_b)
+    return !of_a && !of_b && a->file != b->file &&
+           (!by_name || strcmp(data->dimensions[a->dimension[k]].name,
+                               data->dimensions[b->dimension[k]].name) == 0);
+  return !only_count(data, of_a, of_b) && fits_file(data, of_a, n) &&
+         fits_file(data, of_b, n) && same_numbers(of_a, of_b, n, 0.0);
+}
+
+/* Whether two coordinates of n numbers, in one unit, have a value that differs by more
+ * than rounding. */
+static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
+{
+  const size_t last = n - 1;
+  double first_value, last_value;
+  char of_a[FG__TEXT_BYTES], of_b[FG__TEXT_BYTES];
+  fg__attribute_text(a, "units", of_a, sizeof of_a);
+  fg__attribute_text(b, "units", of_b, sizeof of_b);
+  if (strcmp(of_a, of_b) != 0 || fg__variable_fetch_one(a, (size_t[]){0}, &first_value) ||
+      fg__variable_fetch_one(a, &last, &last_value))
+    return false;
+  const double step = n > 1 ? fabs(last_value - first_value) / (double)last : 0.0;
+  const double rounding = fmax(0.01 * step, 1e-6 * fabs(last_value));
+  return !same_numbers(a, b, n, rounding);
+}
+
+/* Compares times, levels and what else is not in the plane where components have
+ * different dimensions for them. */
+static bool check_index_axes(fg__grid *grid, const fg__dataset *data,
+                             const fg__variable *u, const fg__variable *v)
+{
+  int position[FG__ROLES];
+  fg__roles_find(position, data, u);
+  for (int k = 0; k < u->rank && u->rank == v->rank; ++k) {
+    const int a = u->dimension[k], b = v->dimension[k];
+    const size_t n = data->dimensions[a].length;
+    if (k == position[FG__ROLE_X] || k == position[FG__ROLE_Y] || a == b ||
+        n != data->dimensions[b].length || n > MOST_COMPARED)
+      continue;
+    const fg__variable *x = fg__coordinate(data, u, k);
+    const fg__variable *y = fg__coordinate(data, v, k);
+    if (!x || !y || !fits_file(data, x, n) || !fits_file(data, y, n) || !differ(x, y, n))
+      continue;
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' of '%.60s' and '%.60s' of '%.60s' have different values",
+                     x->plain_name, u->plain_name, y->plain_name, v->plain_name);
+    return false;
+  }
+  return true;
+}
+
+void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
+                      const fg__variable *v)
+{
+  char of_u[FG__TEXT_BYTES / 2];
+  char of_v[FG__TEXT_BYTES / 2];
+  if (!check_index_axes(grid, data, u, v))
+    return;
+  write_shape(of_u, sizeof of_u, data, u);
+  write_shape(of_v, sizeof of_v, data, v);
+  if (strcmp(of_u, of_v) != 0) {
+    grid->off_axes = true;
+    fg__set_unusable(grid->unusable, "'%.60s' is %s, '%.60s' is %s samples%s",
+                     u->plain_name, of_u, v->plain_name, of_v,
+                     u->rank == v->rank ? ": a staggered grid" : "");
+    return;
+  }
+  for (int k = 0; k < u->rank; ++k)
+    if (u->dimension[k] != v->dimension[k] && !same_coordinates(data, u, v, k)) {
+      grid->off_axes = true;
+      fg__set_unusable(
+          grid->unusable,
+          "'%.60s' runs along '%.60s', '%.60s' along '%.60s': a staggered grid",
+          u->plain_name, data->dimensions[u->dimension[k]].name, v->plain_name,
+          data->dimensions[v->dimension[k]].name);
+    }
+}
+
+void fg__refuse_apart(fg__grid *grid, const fg__pair *pair)
+{
+  const fg__variable *u = pair->component[0], *v = pair->component[1];
+  const bool other = u->file != v->file;
+  snprintf(grid->unusable, sizeof grid->unusable,
+           "'%.60s' and '%.60s'%s%.200s lie more than half a cell apart: they are of "
+           "different grids",
+           u->plain_name, v->plain_name, other ? " of " : "", other ? v->path : "");
+  grid->hint[0] = '\0';
+}
+
+void fg__check_storage(fg__grid *grid, const fg__dataset *data, const fg__variable *v)
+{
+  if (!fits_file(data, v, grid->samples))
+    fg__set_unusable(grid->unusable,
+                     "'%.120s' has %zu samples, but the file has only %zu bytes", v->name,
+                     grid->samples, data->file[v->file].size);
+}

@@ -1,0 +1,300 @@
+/* What a dataset means: its vectors, their grids, times and levels, in the order in which
+ * they are found: pairs, grid, words. It sees names, attributes and coordinates,
+ * whichever format they are of. */
+#ifndef FG__INTERPRET_H
+#define FG__INTERPRET_H
+
+#include "dataset/dataset.h"
+#include "flowgrain/field.h"
+#include "interpret/inventory.h"
+#include "terms/polar.h"
+#include "terms/units.h"
+
+/* chosen.c. Chooses samples of dimensions, "number=2,expver=0": the dimensions become
+ * ones of that sample alone. ARGUMENT, UNSUPPORTED, MEMORY. */
+fg_status fg__choose_samples(fg__dataset *data, const char *text);
+
+/* Adds to `words` those of the samples that are chosen of a variable's dimensions: of
+ * time, or of all others. */
+fg_status fg__chosen_words(const fg__dataset *data, const fg__variable *variable,
+                           bool of_time, char *words, size_t size);
+
+/* Writes how one sample of a dimension that is neither time nor level is chosen, and of
+ * which. MEMORY, FILE_FORMAT. */
+fg_status fg__offer_samples(char *out, size_t size, const fg__dataset *data,
+                            int dimension);
+
+/* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
+ * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
+ * free(), also after a failure). MEMORY, FILE_FORMAT. */
+fg_status fg__dimension_label(char out[FG__TEXT_BYTES], const fg__dataset *data,
+                              int dimension, size_t index);
+fg_status fg__dimension_labels(fg_axis_value **out, char **text, const fg__dataset *data,
+                               int dimension);
+
+typedef struct fg__pair {
+  const fg__variable *component[3]; /* the third NULL when there is none */
+  bool volume;                      /* the options name all three */
+  fg__polar polar;                  /* they are a speed and a direction */
+  const char *found_by;
+  int rank;         /* the smallest is the best */
+  bool is_velocity; /* units of a speed, unlike a stress or a flux */
+} fg__pair;
+
+/* chosen.c. Refuses choices by a dimension that neither component has. ARGUMENT. */
+fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
+
+/* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
+fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data);
+
+/* What a variable is called and says of itself; texts are borrowed. */
+fg__term fg__term_of(const fg__variable *v);
+
+/* polar.c. Makes a named pair of a length and its direction, in either order, polar. */
+void fg__settle_polar(fg__pair *pair);
+
+/* The name of a component; NULL: a speed and a direction become components without. */
+const char *fg__component_name(const fg__pair *pair, int k);
+
+/* What a polar pair is, and which rule says so. */
+void fg__pair_polar_words(char *out, size_t size, const fg__pair *pair);
+
+/* The one-dimensional coordinate of a variable's dimension number k, or NULL. */
+const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
+                                   int k);
+
+/* A coordinate of one value of that role which is along none of the variable's
+ * dimensions (CF conventions, section 5.7): the variable names it, or the file does. Of
+ * time it has dates. NULL: none. */
+const fg__variable *fg__single_coordinate(const fg__dataset *data,
+                                          const fg__variable *variable, fg__role role);
+
+/* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
+bool fg__is_time(const fg__dataset *data, const fg__variable *variable, int k);
+
+/* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
+bool fg__may_be_index(const fg__variable *coordinate);
+
+/* Finds the position among a variable's dimensions of each role, -1 where there is none.
+ * Returns the position of a dimension longer than 1 that fits no role, or -1. */
+int fg__roles_find(int position[FG__ROLES], const fg__dataset *data,
+                   const fg__variable *variable);
+
+/* The same for a variable with one dimension in space, number `along`, which gets role
+ * X. */
+int fg__roles_find_beside(int position[FG__ROLES], const fg__dataset *data,
+                          const fg__variable *variable, int along);
+
+typedef struct fg__grid_axis {
+  int dimension;      /* index into the file's dimensions */
+  int position;       /* among the variable's dimensions */
+  size_t first;       /* first sample in the file */
+  size_t size;        /* samples that are used */
+  bool reversed;      /* the file's order is descending */
+  double *coordinate; /* [size], ascending */
+  double period;
+  fg__quantity quantity;
+  char name[FG__TEXT_BYTES];
+  char units[FG__TEXT_BYTES];
+} fg__grid_axis;
+
+typedef struct fg__curvilinear fg__curvilinear; /* mesh/mesh.h */
+typedef struct fg__unstructured fg__unstructured;
+
+/* Components on the faces of cells whose centres lie on the axes. */
+typedef struct fg__staggered {
+  bool used;
+  int position[2][FG__ROLES]; /* of each component's own dimensions, or -1 */
+  size_t before[2]; /* component k along axis k: centre n lies between the faces n -
+                       before[k] and the next, in the file's order */
+} fg__staggered;
+
+typedef struct fg__grid {
+  fg__curvilinear *mesh; /* of a curvilinear grid; NULL: points lie on axes, or */
+  fg__unstructured *unstructured; /* unstructured/; NULL: no such mesh */
+  bool off_axes; /* points do not lie on axes: a mesh, faces, or unusable */
+  fg__staggered faces;
+  int dimension;         /* 2: a plane at one level; 3 */
+  fg__grid_axis axis[3]; /* x, y; the levels as z in 3D */
+  int time, level;       /* positions among the dimensions, or -1 */
+  size_t times, levels;  /* 1 when there is none */
+  const fg__variable *time_variable, *level_variable; /* or NULL; time may be text */
+  char time_name[FG__DIMENSION_BYTES], level_name[FG__DIMENSION_BYTES];
+  fg_scale scale;
+  char projection[2 * FG__TEXT_BYTES]; /* PROJ string of scale MAP; "": not known */
+  bool points_east; /* components along east and north, not along the axes */
+  size_t samples;   /* product of the axes' sizes */
+  char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
+  char hint[FG__TEXT_BYTES];
+  char doubts[FG__REASON_BYTES]; /* lines: what is unsure of all this */
+} fg__grid;
+
+/* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
+ * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
+ * it. */
+void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
+                      const fg__variable *v);
+
+/* Makes a pair unusable whose components lie more than half a cell apart. */
+void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
+
+/* Makes the pair unusable where a variable is not numeric, or has more samples than a
+ * file of this size can hold. */
+void fg__check_variable(fg__grid *grid, const fg__variable *v);
+void fg__check_storage(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
+
+/* polar.c. Makes a polar pair unusable where its unit or north's direction is not
+ * known. */
+void fg__check_polar(fg__grid *grid, const fg__pair *pair,
+                     const fg_read_options *options);
+
+/* axes.c. Reads a coordinate along an axis, makes it ascending, and finds its period. */
+fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
+                             const fg__variable *coordinate);
+
+/* grid.c. The coordinate of axis k, from the dimension of a variable on the grid; NULL:
+ * none. */
+const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
+                                             const fg__grid *grid, const fg__variable *v,
+                                             int k);
+
+/* axes.c. Uses the indices, from 0, as the coordinate. */
+fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);
+
+/* plane.c. Finds two-dimensional longitude and latitude. Where each varies along one
+ * dimension only they become the axes, and *found is true; otherwise the pair is
+ * unusable, unless the scale is plain. */
+fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
+                         const fg__variable *variable, bool *found);
+
+/* Whether two components on equal dimensions have two-dimensional longitudes or latitudes
+ * of their own that are not at the same places: those of faces (Arakawa's C grid).
+ * MEMORY, FILE_ACCESS. */
+fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset *data,
+                            const fg__variable *u, const fg__variable *v);
+
+/* Whether most longitudes or latitudes in two dimensions are others than those of the
+ * coordinates along the grid's axes. MEMORY, FILE_ACCESS. */
+fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
+                                const fg__variable *variable,
+                                const fg__variable *const coordinate[2]);
+
+/* Whether two dimensions are one, or have the same name and length in two files. */
+bool fg__alike_dimension(const fg__dataset *data, int a, int b);
+
+/* Whether a name is one of those in a text with blanks between. */
+bool fg__is_listed(const char *names, const char *name);
+
+/* Whether names are equal, or differ in a u of one where the other has a v ("depthu" and
+ * "depthv" of NEMO). */
+bool fg__named_alike(const char *of_u, const char *of_v);
+
+/* The two-dimensional longitude (X) or latitude (Y) of a variable, on two of the grid's
+ * dimensions and perhaps one for each time. One of the same file is preferred, then one
+ * that the attribute `coordinates` names. NULL: there is none. */
+const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset *data,
+                                         const fg__variable *variable, fg__role role);
+
+/* Whether the variable's attribute `coordinates` names both of them. */
+bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
+                     const fg__variable *variable);
+
+/* projection.c. Finds the PROJ string of axes in a projection or about a rotated pole
+ * from the variable's grid mapping. Where the file's longitudes and latitudes contradict
+ * the projection, the grid is off_axes. MEMORY, FILE_ACCESS. */
+fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,
+                              const fg__variable *u);
+
+/* volume.c. Makes the grid of the first two components three-dimensional when there is a
+ * third component, all levels form one axis in space, and the axes have one unit. Where
+ * the options name the third component, whatever prevents that makes the pair
+ * unusable. */
+fg_status fg__volume_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
+
+/* Finds the grid of a pair. The reason why a pair cannot be read goes to `unusable`; a
+ * status is returned only for failures of reading and lack of memory. */
+fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                        const fg_read_options *options);
+void fg__grid_clear(fg__grid *grid);
+
+/* Sets counts, coordinates and names of the time and level axes from their positions. */
+void fg__set_index_axes(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
+
+/* choice.c. Finds the pair that the options name, or else the only readable pair of the
+ * best rank, with its grid. The grid has to be cleared, also after a failure. ARGUMENT,
+ * UNSUPPORTED, FILE_ACCESS, MEMORY. */
+fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *data,
+                            const fg_read_options *options);
+
+/* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
+ * where a value is missing. Adds to `missing`. */
+fg_status fg__read_values(float *out, fg__missing_counts *missing,
+                          const fg__dataset *data, const fg__variable *variable,
+                          const fg__grid *grid, size_t time, size_t level);
+
+/* Reads a mask into out: 0 where the variable is zero or missing. The variable has the
+ * grid's two dimensions, and perhaps its time and level. */
+fg_status fg__read_mask(unsigned char *out, const fg__dataset *data,
+                        const fg__variable *variable, const fg__grid *grid,
+                        const fg__variable *component, size_t time, size_t level);
+
+/* Whether a variable is numeric and has 1 to FG__RANK dimensions. */
+bool fg__is_array(const fg__variable *v);
+
+/* Whether a variable has both dimensions of a grid, and no others but the component's
+ * time and level and those of length 1. */
+bool fg__lies_on(const fg__dataset *data, const fg__variable *v, const fg__grid *grid,
+                 const fg__variable *component);
+
+/* Reads such a variable into out, x fastest; NaN where a value is missing. FILE_FORMAT
+ * (not on the grid), FILE_ACCESS, MEMORY. */
+fg_status fg__read_doubles(double *out, const fg__dataset *data,
+                           const fg__variable *variable, const fg__grid *grid,
+                           const fg__variable *component, size_t time, size_t level);
+
+/* The same of all numbers of a variable with one dimension or more. */
+fg_status fg__read_all(double *out, const fg__dataset *data,
+                       const fg__variable *variable);
+
+/* A title of the vector: what the components' long names, descriptions (WRF) or standard
+ * names share, else the title of their file or group, else their names. */
+void fg__vector_title(const fg__pair *pair, int components, char *out, size_t size);
+
+/* Describes the time or level of an index; `name` is the dimension's. */
+fg_status fg__index_words(const fg__variable *coordinate, const char *name, size_t index,
+                          char *out, size_t size);
+
+/* defaults.c. fg_read_defaults_find for a pair and its grid. */
+fg_status fg__defaults_find(fg_read_defaults *out, const fg__dataset *data,
+                            const fg__pair *pair, const fg__grid *grid,
+                            const fg_read_options *options);
+
+/* date_texts.c. The variable with a date as text for each index of a dimension, or
+ * NULL. */
+const fg__variable *fg__date_texts(const fg__dataset *data, int dimension);
+
+/* The date at one index, "" where the text is no date. Then fg__grid_axis_values of all
+ * dates, whose numbers are NaN; NULL where one of the texts is no date. */
+fg_status fg__date_text(char *out, size_t size, const fg__variable *texts, size_t index);
+fg_status fg__date_values(fg_axis_value **out, char **text, const fg__variable *texts,
+                          size_t count);
+
+/* The values of a time or level axis; their texts point into *text. Both are for free().
+ * NULL where there is no coordinate, or too many values to choose from. */
+fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__dataset *data,
+                               const fg__variable *coordinate, size_t count);
+
+/* The texts of a picture's caption. */
+typedef struct fg__vector_words {
+  char title[FG__TEXT_BYTES], units[FG__TEXT_BYTES];
+  char time[FG__TEXT_BYTES], level[FG__TEXT_BYTES]; /* "": none */
+} fg__vector_words;
+
+/* The units of a vector as on an axis label: those of a component that has some. */
+void fg__velocity_units(char *out, size_t size, const fg__pair *pair);
+
+fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
+                                const fg__pair *pair, const fg__grid *grid,
+                                const fg_read_options *options);
+
+#endif

@@ -1,0 +1,64 @@
+/* Lengths and directions in place of components: which the options name, and on which
+ * grids they can be read. */
+#include "interpret/curvilinear/curvilinear.h"
+#include "interpret/unstructured/unstructured.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void fg__settle_polar(fg__pair *pair)
+{
+  const fg__variable *const named[2] = {pair->component[0], pair->component[1]};
+  const fg__term term[2] = {fg__term_of(named[0]), fg__term_of(named[1])};
+  const int k = fg__direction_among(&pair->polar, &term[0], &term[1]);
+  if (k < 0)
+    return;
+  pair->component[0] = named[1 - k];
+  pair->component[1] = named[k];
+}
+
+void fg__check_polar(fg__grid *grid, const fg__pair *pair, const fg_read_options *options)
+{
+  const fg__variable *direction = pair->component[1];
+  const fg__grid_axis *axis = grid->axis;
+  if (pair->polar.sense == 0)
+    return;
+  if (pair->polar.unit == 0.0)
+    fg__set_unusable(grid->unusable,
+                     "the direction '%.120s' is not in degrees or radians",
+                     direction->name);
+  if (grid->faces.used || (grid->mesh && (grid->mesh->shift[0] || grid->mesh->shift[1])))
+    fg__set_unusable(grid->unusable, "speed and direction lie at different places");
+  if (options->frame == FG_FRAME_GRID)
+    fg__set_unusable(grid->unusable,
+                     "'%.120s' is a direction from north, not from the grid's lines",
+                     direction->name);
+  const bool on_globe =
+      grid->mesh || (grid->unstructured && !grid->unstructured->in_plane) ||
+      grid->points_east ||
+      (axis[0].quantity == FG__QUANTITY_DEGREES_EAST &&
+       axis[1].quantity == FG__QUANTITY_DEGREES_NORTH) ||
+      (grid->scale == FG_SCALE_GEO && strcmp(axis[0].name, "grid longitude") != 0);
+  if (!on_globe && !grid->unusable[0]) {
+    fg__set_unusable(grid->unusable,
+                     "'%.120s' is a direction from north, and where north lies on its "
+                     "grid is not known",
+                     direction->name);
+    snprintf(grid->hint, sizeof grid->hint,
+             "speed and direction are read with longitude and latitude, or in a "
+             "projection that the file describes");
+  }
+}
+
+const char *fg__component_name(const fg__pair *pair, int k)
+{
+  return pair->polar.sense == 0 ? pair->component[k]->name : NULL;
+}
+
+void fg__pair_polar_words(char *out, size_t size, const fg__pair *pair)
+{
+  char rule[FG__TEXT_BYTES];
+  const fg__term direction = fg__term_of(pair->component[1]);
+  fg__direction_rule(rule, sizeof rule, &direction);
+  fg__polar_words(out, size, &pair->polar, rule);
+}

@@ -1,0 +1,98 @@
+/* Unstructured meshes: UGRID, ICON, FVCOM, ADCIRC, MPAS, HEALPix, cells with bounds, and
+ * bare points. Which variables say where a pair's vectors lie is found by `find`
+ * (docs/method/model-grids.md). */
+#ifndef FG__UNSTRUCTURED_H
+#define FG__UNSTRUCTURED_H
+
+#include "interpret/interpret.h"
+
+typedef enum fg__mesh_location {
+  FG__MESH_ON_POINTS = 0, /* no mesh is known: triangles between them are made */
+  FG__MESH_ON_NODES,
+  FG__MESH_ON_FACES
+} fg__mesh_location;
+
+struct fg__unstructured {
+  fg__mesh_location location;
+  int dimension;                    /* of the vectors, of the file's */
+  bool of_trajectories;             /* in arrays [trajectories][places] */
+  int beside;                       /* the trajectories' dimension, where there is */
+  const fg__variable *connectivity; /* nodes of faces, 2 dimensions; NULL: none */
+  int faces_along;                  /* which of its dimensions is the faces' */
+  int start;                        /* its number of the first node, if it says none */
+  const fg__variable *corner_count; /* nodes of each face; NULL: up to a fill value */
+  const fg__variable *node[2];      /* positions x, y of nodes, or of points */
+  const fg__variable *centre[2];    /* of faces; NULL: in the middle of their nodes */
+  const fg__variable *bounds[2];    /* [faces][corners], instead of nodes */
+  const fg__variable *wet, *pixel;  /* NULL: none */
+  bool wet_is_zero;                 /* the mask is 1 on land */
+  long sides;                       /* HEALPix: N_side; 0: it is none */
+  bool nested;                      /* its order */
+  bool in_plane;                    /* positions are no longitudes and latitudes */
+  bool in_radians;                  /* where units do not say */
+  fg__grid of_v;                    /* the second component's own dimensions */
+  char rule[2 * FG__TEXT_BYTES];    /* what the mesh is and how it was found */
+};
+
+/* find.c. Finds the mesh that a pair lies on; then grid->unstructured is set, and the
+ * grid has one axis, the vectors', besides time and level. What it can not be read for is
+ * said in unusable. MEMORY, FILE_ACCESS. */
+fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
+                                const fg__pair *pair, const fg_read_options *options);
+void fg__unstructured_destroy(fg__unstructured *mesh);
+
+/* Makes a variable's dimension that is, or is as long as, that of the mesh the grid's
+ * axis, and that of its trajectories the other. False where there is none, or one that is
+ * neither these nor time nor level. */
+bool fg__unstructured_axis(fg__grid *grid, const fg__dataset *data, const fg__variable *v,
+                           const fg__unstructured *mesh);
+
+/* Whether a variable's only dimension is one of an unstructured mesh, perhaps one that
+ * lacks something. */
+bool fg__unstructured_line(const fg__dataset *data, const fg__variable *v);
+
+/* Which file a mesh is of: 0 or 1. */
+int fg__unstructured_file(const fg__unstructured *mesh);
+
+/* Whether a variable's mesh is of the other file. */
+bool fg__unstructured_elsewhere(const fg__dataset *data, const fg__variable *v);
+
+/* The steps of that: whether variable u lies on such a mesh, along its dimension number
+ * k. ugrid.c: the attributes of the UGRID conventions, 1.0. models.c: names of MPAS,
+ * FVCOM, ADCIRC, ICON. coordinates.c: longitude and latitude along one dimension, with
+ * bounds or without, or along trajectories; HEALPix. Writes what is lacking into `lacks`,
+ * which then is why the pair can not be read. */
+typedef struct fg__mesh_search {
+  const fg__dataset *data;
+  const fg__variable *u;
+  int k;
+  char lacks[2 * FG__TEXT_BYTES];
+  bool elsewhere; /* what is lacking may be in another file */
+} fg__mesh_search;
+
+bool fg__find_ugrid(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_model(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_healpix(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_coordinates(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search);
+
+/* Longitude (X), latitude (Y) or neither, in degrees or radians. */
+fg__role fg__angle_role(const fg__variable *v);
+
+/* Whether two dimensions are one: of two files those of one length. */
+bool fg__same_dimension(const fg__dataset *data, int a, int b);
+
+/* Two variables named in a text, "lon lat", each with one dimension, in the order x, y.
+ */
+bool fg__named_positions(const fg__variable *out[2], const fg__dataset *data,
+                         const char *names);
+
+/* Degrees in a unit of positions. */
+double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v);
+
+/* Positions of one dimension, in degrees or the plane's units. */
+fg_status fg__positions_of(double *out[2], const fg__dataset *data,
+                           const fg__unstructured *mesh, const fg__variable *const at[2],
+                           size_t count);
+
+#endif

@@ -1,0 +1,344 @@
+/* Texts of captions: the vector's title, its time and its level. */
+#include "base/memory.h"
+#include "interpret/interpret.h"
+#include "terms/dates.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MOST_WORDS = 24, WORD_BYTES = 48 };
+
+typedef struct word_list {
+  char word[MOST_WORDS][WORD_BYTES];
+  int count;
+} word_list;
+
+/* Words of a text without bracketed parts; underscores separate words. */
+static void split_words(word_list *list, const char *text)
+{
+  int depth = 0;
+  size_t n = 0;
+  list->count = 0;
+  for (const char *c = text;; ++c) {
+    const bool bracket = strchr("([{", *c) && *c;
+    const bool parts = *c == '\0' || *c == '_' || isspace((unsigned char)*c) || bracket;
+    if (parts && n > 0 && list->count < MOST_WORDS) {
+      list->word[list->count++][n] = '\0';
+      n = 0;
+    }
+    if (*c == '\0')
+      return;
+    depth += bracket;
+    if (!parts && depth == 0 && n < WORD_BYTES - 1 && list->count < MOST_WORDS)
+      list->word[list->count][n++] = *c;
+    depth -= depth > 0 && strchr(")]}", *c);
+  }
+}
+
+static bool has_word(const word_list *list, const char *word)
+{
+  for (int i = 0; i < list->count; ++i)
+    if (strcasecmp(list->word[i], word) == 0)
+      return true;
+  return false;
+}
+
+/* Leaves out the direction in "x-velocity", "u-momentum". */
+static void cut_directions(word_list *list)
+{
+  static const char *const known[] = {"velocity", "wind", "current", "stress",
+                                      "momentum"};
+  for (int i = 0; i < list->count; ++i) {
+    char *word = list->word[i];
+    if (!word[0] || !strchr("uvxyUVXY", word[0]) || word[1] != '-')
+      continue;
+    for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
+      if (strcasecmp(word + 2, known[k]) == 0)
+        memmove(word, word + 2, strlen(word + 2) + 1);
+  }
+}
+
+static bool is_filler(const char *word)
+{
+  static const char *const filler[] = {"component", "components", "comp.", "of",
+                                       "the",       "along",      "-",     ",",
+                                       "in",        "at",         "to",    "direction"};
+  for (size_t i = 0; i < sizeof filler / sizeof *filler; ++i)
+    if (strcasecmp(word, filler[i]) == 0)
+      return true;
+  return false;
+}
+
+/* Words that say nothing of the vector by themselves. */
+static bool is_empty(const char *word)
+{
+  return !isalpha((unsigned char)word[0]) || !word[1] || is_filler(word) ||
+         strcasecmp(word, "momentum") == 0;
+}
+
+/* "Ocean current along" is "Ocean current", as is "Ocean current:". */
+static void cut_fillers_at_end(char *text)
+{
+  for (char *last; (last = strrchr(text, ' ')) && is_filler(last + 1);)
+    *last = '\0';
+  for (size_t n = strlen(text); n > 0 && strchr(":,;-", text[n - 1]); --n)
+    text[n - 1] = '\0';
+}
+
+static bool is_shouted(const char *word)
+{
+  size_t n = 0;
+  for (; word[n]; ++n)
+    if (!isupper((unsigned char)word[n]))
+      return false;
+  return n > 3;
+}
+
+/* Joins the words that both components share: "Zonal 10 metre wind" and "Meridional 10
+ * metre wind" have "10 metre wind". */
+static bool join_shared(const char *of_u, const char *of_v, char *out, size_t size)
+{
+  word_list u;
+  word_list v;
+  split_words(&u, of_u);
+  split_words(&v, of_v);
+  cut_directions(&u);
+  cut_directions(&v);
+  size_t n = 0;
+  bool telling = false;
+  out[0] = '\0';
+  for (int i = 0; i < u.count; ++i) {
+    char *word = u.word[i];
+    if (!has_word(&v, word) || (is_filler(word) && n == 0) ||
+        strncasecmp(word, "component", 9) == 0)
+      continue;
+    if (is_shouted(word))
+      for (char *c = word; *c; ++c)
+        *c = (char)tolower((unsigned char)*c);
+    telling = telling || !is_empty(word);
+    const int written = snprintf(out + n, size - n, "%s%s", n > 0 ? " " : "", word);
+    if (written < 0 || (size_t)written >= size - n)
+      break;
+    n += (size_t)written;
+  }
+  cut_fillers_at_end(out);
+  return telling;
+}
+
+/* What a standard name tells of the grid. */
+static void cut_grid(char *standard_name)
+{
+  if (strncmp(standard_name, "grid_", 5) == 0)
+    memmove(standard_name, standard_name + 5, strlen(standard_name + 5) + 1);
+  char *at = strstr(standard_name, "_at_u_location");
+  at = at ? at : strstr(standard_name, "_at_v_location");
+  if (at)
+    *at = '\0';
+}
+
+void fg__vector_title(const fg__pair *pair, int components, char *out, size_t size)
+{
+  static const char *const attribute[] = {"long_name", "description", "standard_name"};
+  for (int a = 0; a < 3; ++a) {
+    char of_u[FG__TEXT_BYTES];
+    char of_v[FG__TEXT_BYTES];
+    fg__attribute_text(pair->component[0], attribute[a], of_u, sizeof of_u);
+    fg__attribute_text(pair->component[1], attribute[a], of_v, sizeof of_v);
+    cut_grid(of_u);
+    cut_grid(of_v);
+    if (join_shared(of_u, of_v, out, size))
+      return;
+  }
+  if (fg__attribute_text(fg__group_of(pair->component[0]), "title", out, size))
+    return;
+  if (components == 3)
+    snprintf(out, size, "%.80s, %.80s, %.80s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name, pair->component[2]->plain_name);
+  else
+    snprintf(out, size, "%.120s, %.120s", pair->component[0]->plain_name,
+             pair->component[1]->plain_name);
+}
+
+static const char *kind_of_height(const fg__variable *coordinate)
+{
+  static const char *const known[] = {"depth", "altitude", "height"};
+  char name[FG__TEXT_BYTES];
+  fg__attribute_text(coordinate, "standard_name", name, sizeof name);
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strstr(name, known[i]) || strstr(coordinate->plain_name, known[i]))
+      return known[i];
+  return coordinate->plain_name;
+}
+
+/* Whether units say no more than that values are numbers of levels or layers. */
+static bool are_none(const char *units)
+{
+  static const char *const known[] = {"", "1", "level", "levels", "layer", "layers"};
+  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
+    if (strcasecmp(units, known[i]) == 0)
+      return true;
+  return false;
+}
+
+/* Writes a coordinate's value as text, pressures of the air in hPa. */
+static void write_words(const fg__variable *coordinate, double value, char *out,
+                        size_t size)
+{
+  char units[FG__TEXT_BYTES];
+  char label[FG__TEXT_BYTES];
+  char calendar[FG__TEXT_BYTES];
+  fg__attribute_text(coordinate, "units", units, sizeof units);
+  fg__attribute_text(coordinate, "calendar", calendar, sizeof calendar);
+  const fg__quantity quantity = fg__units_read(units, label, sizeof label);
+  if ((quantity == FG__QUANTITY_DATE &&
+       fg__date_of_number(value, units, calendar, out, size)) ||
+      fg__duration(value, units, out, size))
+    return;
+  if (quantity == FG__QUANTITY_PRESSURE && strcmp(label, "Pa") == 0 &&
+      fabs(value) >= 100.0) {
+    value /= 100.0;
+    snprintf(label, sizeof label, "hPa");
+  }
+  char number[32]; /* all digits of a whole one, as of 19820716 */
+  snprintf(number, sizeof number,
+           fabs(value) < 1e15 && value == floor(value) ? "%.0f" : "%g", value);
+  if (quantity == FG__QUANTITY_PRESSURE)
+    snprintf(out, size, "%s %s", number, label);
+  else if (quantity == FG__QUANTITY_LENGTH)
+    snprintf(out, size, "%s %s %s", kind_of_height(coordinate), number, label);
+  else if (strncasecmp(units, "month", 5) == 0)
+    snprintf(out, size, "month %s", number);
+  else if (are_none(units))
+    snprintf(out, size, "%s %s", coordinate->plain_name, number);
+  else
+    snprintf(out, size, "%s %s %s", coordinate->plain_name, number, units);
+}
+
+fg_status fg__index_words(const fg__variable *coordinate, const char *name, size_t index,
+                          char *out, size_t size)
+{
+  const bool of_texts = coordinate && !fg__is_number(coordinate);
+  if (of_texts) {
+    const fg_status status = fg__date_text(out, size, coordinate, index);
+    if (status != FG_STATUS_OK || out[0])
+      return status;
+  }
+  if (!coordinate || of_texts) {
+    snprintf(out, size, "%.200s %zu", name, index);
+    return FG_STATUS_OK;
+  }
+  double value = 0.0;
+  const fg_status status = fg__variable_fetch_one(coordinate, &index, &value);
+  if (status != FG_STATUS_OK)
+    return status;
+  write_words(coordinate, value, out, size);
+  return FG_STATUS_OK;
+}
+
+/* One century of hourly values. */
+enum { MOST_VALUES = 1000000 };
+
+/* Writes the texts of all values one after the other, behind their units. */
+static bool write_texts(char **text, size_t *starts, const fg__variable *coordinate,
+                        const double *number, size_t count)
+{
+  char units[FG__TEXT_BYTES], words[FG__TEXT_BYTES];
+  size_t used = 0, capacity = 0;
+  fg__attribute_text(coordinate, "units", units, sizeof units);
+  fg__units_read(units, words, sizeof words);
+  for (size_t n = 0; n <= count; ++n) {
+    const size_t length = strlen(words) + 1;
+    if (!fg__grow((void **)text, &capacity, used + length, 1))
+      return false;
+    memcpy(*text + used, words, length);
+    starts[n] = used;
+    used += length;
+    if (n < count)
+      write_words(coordinate, number[n], words, sizeof words);
+  }
+  return true;
+}
+
+/* `number` and `starts` have room for all numbers and for the offsets of their texts. */
+static fg_status read_axis_values(fg_axis_value *out, char **text, double *number,
+                                  size_t *starts, const fg__variable *coordinate,
+                                  size_t count)
+{
+  fg_context *context = coordinate->owner->context;
+  const size_t start = 0;
+  const fg_status status = fg__variable_fetch(coordinate, &start, &count, number);
+  if (status != FG_STATUS_OK)
+    return status;
+  if (!write_texts(text, starts, coordinate, number, count))
+    return fg__fail_memory(context, "an axis' values", count * sizeof *out);
+  for (size_t n = 0; n < count; ++n)
+    out[n] = (fg_axis_value){number[n], *text, *text + starts[n + 1]};
+  return FG_STATUS_OK;
+}
+
+fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__dataset *data,
+                               const fg__variable *coordinate, size_t count)
+{
+  *out = NULL;
+  *text = NULL;
+  if (!coordinate || count < 1 || count > MOST_VALUES)
+    return FG_STATUS_OK;
+  if (!fg__is_number(coordinate))
+    return fg__date_values(out, text, coordinate, count);
+  if (coordinate->rank > 1)
+    return FG_STATUS_OK;
+  fg_status status = FG_STATUS_OK;
+  double *number = fg__allocate(count, sizeof *number);
+  size_t *starts = fg__allocate(count + 1, sizeof *starts);
+  *out = fg__allocate(count, sizeof **out);
+  if (number && starts && *out)
+    status = read_axis_values(*out, text, number, starts, coordinate, count);
+  else
+    status = fg__fail_memory(data->context, "an axis' values", count * sizeof **out);
+  if (status != FG_STATUS_OK) {
+    free(*out);
+    *out = NULL;
+  }
+  free(starts);
+  free(number);
+  return status;
+}
+
+void fg__velocity_units(char *out, size_t size, const fg__pair *pair)
+{
+  char text[FG__TEXT_BYTES];
+  const bool known = fg__attribute_text(pair->component[0], "units", text, sizeof text);
+  if (!known && pair->polar.sense == 0)
+    fg__attribute_text(pair->component[1], "units", text, sizeof text);
+  fg__units_read(text, out, size);
+}
+
+fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
+                                const fg__pair *pair, const fg__grid *grid,
+                                const fg_read_options *options)
+{
+  fg_status status = FG_STATUS_OK;
+  *out = (fg__vector_words){{0}, {0}, {0}, {0}};
+  if (grid->time >= 0 || grid->time_variable)
+    status = fg__index_words(grid->time_variable, grid->time_name, (size_t)options->time,
+                             out->time, sizeof out->time);
+  if ((grid->level >= 0 || grid->level_variable) && grid->dimension == 2 &&
+      status == FG_STATUS_OK)
+    status = fg__index_words(grid->level_variable, grid->level_name,
+                             (size_t)options->level, out->level, sizeof out->level);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__chosen_words(data, pair->component[0], true, out->time, sizeof out->time);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__chosen_words(data, pair->component[0], false, out->level, sizeof out->level);
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__vector_title(pair, grid->dimension, out->title, sizeof out->title);
+  fg__velocity_units(out->units, sizeof out->units, pair);
+  return status;
+}

@@ -1,0 +1,394 @@
+/* Fields, spheres and inventories of datasets, whichever format they are of. */
+#include "read/vector_choice.h"
+
+#include "field/slab.h"
+#include "map/project.h"
+#include "sample/curvilinear/points.h"
+#include "sample/missing.h"
+#include "sample/unstructured/mesh.h"
+#include "sample/velocity.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fg_status check_index(const fg__dataset *data, const char *what, int index,
+                             int position, size_t count, const char *name)
+{
+  if (index >= 0 && (size_t)index < count)
+    return FG_STATUS_OK;
+  if (position < 0)
+    return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                    "%s: %s %d asked for, but the field has no %s axis",
+                    data->file[0].path, what, index, what);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           "%s: %s %d asked for, but '%s' has %zu: 0 to %zu", data->file[0].path, what,
+           index, name, count, count - 1);
+  fg__hint(data->context,
+           "a whole number is an index, from 0; a value has its unit or a point: %s",
+           strcmp(what, "time") == 0 ? "1982-07-16, 2.5" : "850hPa, 850.");
+  return FG_STATUS_ARGUMENT;
+}
+
+static fg_status check_missing(const fg__dataset *data, const fg__variable *v,
+                               const fg__missing_counts *missing, size_t samples)
+{
+  if (missing->fill + missing->range + missing->not_a_number < samples)
+    return FG_STATUS_OK;
+  return fg__fail(data->context, FG_STATUS_FILE_FORMAT,
+                  "%s: all %zu samples of '%s' are missing (%zu fill values, %zu outside "
+                  "the valid range, %zu not a number)",
+                  v->path, samples, v->name, missing->fill, missing->range,
+                  missing->not_a_number);
+}
+
+/* Records the missing samples of a slab; whether all are missing is known once all slabs
+ * are read. */
+static void keep_missing(const fg_field *field, const fg__velocity_samples *read)
+{
+  fg__field_slab *slab = field->slab;
+  slab->has_reasons = true;
+  for (int k = 0; k < field->contents.dimension; ++k) {
+    slab->counts.by_reason[k][0] = read->missing[k].fill;
+    slab->counts.by_reason[k][1] = read->missing[k].range;
+    slab->counts.by_reason[k][2] = read->missing[k].not_a_number;
+  }
+}
+
+static const char *projection_of(const fg__grid *grid)
+{
+  return grid->dimension == 2 && grid->projection[0] ? grid->projection : NULL;
+}
+
+static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options,
+                            fg__slab_index slab)
+{
+  fg__vector_words words;
+  fg__velocity_samples read = {0};
+  char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
+  const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
+  if (last->period > 0.0)
+    slab = (fg__slab_index){0, 1};
+  const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
+  fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
+  if (status == FG_STATUS_OK)
+    status =
+        fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)options->time,
+                                  (size_t)options->level, options->mask);
+  if (status == FG_STATUS_OK && grid->dimension == 2)
+    status = fg__projection_turn(read.velocity, data, grid, &rows);
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
+    status = check_missing(data, pair->component[k], &read.missing[k], grid->samples);
+  if (status == FG_STATUS_OK) {
+    fg_field_arrays arrays = {.dimension = grid->dimension,
+                              .valid = read.valid,
+                              .scale = grid->scale,
+                              .projection = projection_of(grid),
+                              .velocity_units = words.units,
+                              .title = words.title,
+                              .time = words.time[0] ? words.time : NULL,
+                              .level = words.level[0] ? words.level : NULL,
+                              .doubts = grid->doubts[0] ? grid->doubts : NULL};
+    if (!arrays.projection && fg__map_is_asked(options->map))
+      arrays.projection = fg__axes_plane(plane, pair->component[0], grid);
+    for (int k = 0; k < grid->dimension; ++k) {
+      arrays.size[k] = (int)grid->axis[k].size;
+      arrays.axis[k] = grid->axis[k].coordinate;
+      arrays.period[k] = grid->axis[k].period;
+      arrays.velocity[k] = read.velocity[k];
+      arrays.velocity_name[k] = fg__component_name(pair, k);
+      arrays.axis_name[k] = grid->axis[k].name;
+      arrays.axis_units[k] = grid->axis[k].units;
+    }
+    status = fg__field_of_rows(out, data->context, &arrays, read.velocity, &slab);
+    if (status == FG_STATUS_OK && slab.count > 1)
+      keep_missing(*out, &read);
+  }
+  fg__velocity_samples_clear(&read);
+  return status;
+}
+
+static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int level)
+{
+  if (grid->dimension == 2)
+    return check_index(data, "level", level, grid->level, grid->levels, grid->level_name);
+  if (level == 0)
+    return FG_STATUS_OK;
+  fg__fail(
+      data->context, FG_STATUS_ARGUMENT,
+      "%s: level %d asked for, but the field has three components and all %zu levels",
+      data->file[0].path, level, grid->levels);
+  fg__hint(data->context, "name two components, --vars U,V, for the plane of one level");
+  return FG_STATUS_ARGUMENT;
+}
+
+static fg_status check_places(const fg__vector_choice *c, const fg_read_options *options)
+{
+  const fg__grid *grid = &c->grid;
+  const fg_status status = check_index(&c->data, "time", options->time, grid->time,
+                                       grid->times, grid->time_name);
+  return status == FG_STATUS_OK ? check_level(&c->data, grid, options->level) : status;
+}
+
+fg_status fg__dataset_read(fg_field **out, fg_context *context,
+                           const fg__dataset_format *format, const fg__source *source,
+                           const fg_read_options *options, fg__slab_index slab)
+{
+  fg__vector_choice *c;
+  fg__sphere *sphere = NULL;
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh) {
+    status = fg__sphere_read(&sphere, &c->data, &c->pair, &c->grid, options);
+    if (status == FG_STATUS_OK)
+      status = fg__globe_field(out, context, sphere, slab);
+  } else if (status == FG_STATUS_OK && c->grid.unstructured) {
+    status = fg__unstructured_field(out, &c->data, &c->pair, &c->grid, options, slab);
+  } else if (status == FG_STATUS_OK) {
+    status = make_field(out, &c->data, &c->pair, &c->grid, options, slab);
+  }
+  fg__sphere_destroy(sphere);
+  return fg__vector_choice_leave(c, source, status);
+}
+
+fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
+                             const fg__dataset_format *format, const fg__source *source,
+                             const fg_read_options *options)
+{
+  fg__vector_choice *c;
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh)
+    status = fg__sphere_read(out, &c->data, &c->pair, &c->grid, options);
+  else if (status == FG_STATUS_OK && c->grid.unstructured)
+    status = fg__unstructured_sphere(out, &c->data, &c->pair, &c->grid, options);
+  return fg__vector_choice_leave(c, source, status);
+}
+
+/* Samples in memory at a time while an inventory counts missing values. */
+enum { COUNTED_AT_ONCE = 1 << 22 };
+
+static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
+                               const fg__pair *pair, const fg__grid *grid)
+{
+  const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
+  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  size_t count = 0;
+  fg_status status = FG_STATUS_OK;
+  for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
+    const int own = (int)(all - first < most ? all - first : most);
+    const fg__rows rows = {(int)first, own, own};
+    fg__velocity_samples read = {0};
+    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
+    for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
+      bool missing = false;
+      for (int k = 0; k < grid->dimension; ++k)
+        missing = missing || !isfinite(read.velocity[k][i]);
+      count += missing;
+    }
+    fg__velocity_samples_clear(&read);
+  }
+  if (status == FG_STATUS_OK)
+    vector->missing_share = (double)count / (double)grid->samples;
+  return status;
+}
+
+/* Adds a vector with its times and levels. */
+static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector,
+                            const fg__dataset *data, const fg__grid *grid)
+{
+  fg_axis_value *times = NULL, *levels = NULL;
+  char *time_text = NULL, *level_text = NULL;
+  fg_status status = FG_STATUS_OK;
+  if (!vector->unusable)
+    status = fg__grid_axis_values(&times, &time_text, data, grid->time_variable,
+                                  (size_t)vector->times);
+  if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
+    status = fg__grid_axis_values(&levels, &level_text, data, grid->level_variable,
+                                  (size_t)vector->levels);
+  vector->time_value = times;
+  vector->level_value = levels;
+  if (status == FG_STATUS_OK)
+    status = fg__inventory_add(inventory, data->context, vector);
+  free(times);
+  free(levels);
+  free(time_text);
+  free(level_text);
+  return status;
+}
+
+/* Texts that a vector of the inventory points to. */
+typedef struct vector_texts {
+  char units[FG__TEXT_BYTES], plane[FG__TEXT_BYTES], chosen[FG__TEXT_BYTES];
+  char polar[FG__TEXT_BYTES];
+  char frame[3 * FG__TEXT_BYTES + 4];    /* a projection, and its directions */
+  char unusable[3 * FG__TEXT_BYTES + 2]; /* the reason and the hint */
+} vector_texts;
+
+static const char *describe_frame(char *out, size_t size, const fg__grid *grid)
+{
+  if (grid->mesh)
+    return grid->mesh->rule;
+  if (!grid->projection[0])
+    return grid->faces.used ? "along the axes (a staggered grid)" : NULL;
+  snprintf(out, size, "%s of %s",
+           grid->points_east ? "east and north, turned to the axes" : "along the axes",
+           grid->projection);
+  return out;
+}
+
+/* A mesh has it in its rule. */
+static const char *describe_polar(vector_texts *texts, const fg__pair *pair,
+                                  const fg__grid *grid)
+{
+  fg__pair_polar_words(texts->polar, sizeof texts->polar, pair);
+  snprintf(texts->frame, sizeof texts->frame, "%s (%s)",
+           grid->unstructured ? grid->unstructured->rule : "east and north",
+           texts->polar);
+  return texts->frame;
+}
+
+static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
+{
+  for (int k = 0; k < grid->dimension; ++k) {
+    const fg__grid_axis *axis = &grid->axis[k];
+    vector->size[k] = (int)axis->size;
+    if (axis->coordinate) {
+      vector->bounds[2 * k] = axis->coordinate[0];
+      vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
+    }
+  }
+}
+
+/* Fills in what requires reading the mesh or all samples. */
+static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset *data,
+                                  const fg__pair *pair, fg__grid *grid)
+{
+  if (grid->mesh)
+    return fg__curvilinear_describe(vector, data, pair, grid);
+  if (grid->unstructured)
+    return fg__unstructured_describe(vector, data, pair, grid);
+  return count_missing(vector, data, pair, grid);
+}
+
+/* Takes the message of a refusal, without the file's name, and its hint. */
+static void take_refusal(char *out, size_t size, const fg__dataset *data)
+{
+  const char *message = fg_context_message(data->context);
+  const size_t path = strlen(data->file[0].path);
+  if (strncmp(message, data->file[0].path, path) == 0 && message[path] == ':')
+    message += path + 1 + (message[path + 1] == ' ');
+  snprintf(out, size, "%s; %s", message, fg_context_hint(data->context));
+  fg_context_clear(data->context);
+}
+
+/* Adds the vector of a pair to the inventory. reads: the mesh or all samples may be
+ * read. */
+static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
+                               const fg__pair *pair, fg__grid *grid,
+                               const fg_read_options *options, bool reads)
+{
+  vector_texts texts;
+  fg_read_defaults defaults;
+  fg_status status = fg__defaults_find(&defaults, data, pair, grid, options);
+  fg__velocity_units(texts.units, sizeof texts.units, pair);
+  texts.chosen[0] = '\0';
+  for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
+    status = fg__chosen_words(data, pair->component[0], of_time == 1, texts.chosen,
+                              sizeof texts.chosen);
+  fg_inventory_vector vector = {
+      .components = grid->dimension,
+      .name = {pair->component[0]->name,
+               pair->component[0]->element ? NULL : pair->component[1]->name,
+               grid->dimension == 3 ? pair->component[2]->name : NULL},
+      .units = texts.units,
+      .found_by = pair->found_by,
+      .dimension = grid->dimension,
+      .size = {0, 0, 1},
+      .times = (int)grid->times,
+      .levels = grid->dimension == 3 ? 1 : (int)grid->levels,
+      .scale = grid->scale,
+      .frame = describe_frame(texts.frame, sizeof texts.frame, grid),
+      .usual_level = defaults.level,
+      .absent = defaults.absent[0] ? defaults.absent : NULL,
+      .chosen = texts.chosen[0] ? texts.chosen : NULL,
+      .periodic = {grid->axis[0].period > 0.0}};
+  const bool on_axes = !grid->mesh && !grid->unstructured;
+  if (on_axes)
+    describe_axes(&vector, grid);
+  if (grid->unusable[0]) {
+    snprintf(texts.unusable, sizeof texts.unusable, "%s%s%s", grid->unusable,
+             grid->hint[0] ? "; " : "", grid->hint);
+    vector.unusable = texts.unusable;
+  } else {
+    if (on_axes && !grid->projection[0])
+      vector.plane = fg__axes_plane(texts.plane, pair->component[0], grid);
+    if (status == FG_STATUS_OK && reads)
+      status = describe_samples(&vector, data, pair, grid);
+    if (status == FG_STATUS_ARGUMENT) { /* an option decides */
+      status = FG_STATUS_OK;
+      take_refusal(texts.unusable, sizeof texts.unusable, data);
+      vector.unusable = texts.unusable;
+    }
+  }
+  vector.doubts = grid->doubts[0] ? grid->doubts : NULL;
+  if (pair->polar.sense != 0 && !grid->mesh)
+    vector.frame = describe_polar(&texts, pair, grid);
+  return status == FG_STATUS_OK ? add_vector(inventory, &vector, data, grid) : status;
+}
+
+static fg_status describe_pair(fg_inventory *inventory, const fg__dataset *data,
+                               const fg__pair *pair)
+{
+  static const fg_read_options defaults = {0};
+  fg__grid grid;
+  fg_status status = fg__grid_find(&grid, data, pair, &defaults);
+  if (status == FG_STATUS_OK)
+    status = describe_grid(inventory, data, pair, &grid, &defaults, true);
+  fg__grid_clear(&grid);
+  return status;
+}
+
+static fg_status describe_all(fg_inventory *inventory, fg_context *context,
+                              const fg__dataset_format *format, const fg__source *source)
+{
+  fg__dataset data = {0};
+  fg__pair *pairs = NULL;
+  size_t count = 0;
+  fg_status status = fg__dataset_open_file(&data, context, format, source);
+  if (status == FG_STATUS_OK)
+    status = fg__pairs_find(&pairs, &count, &data);
+  for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
+    status = describe_pair(inventory, &data, &pairs[i]);
+  free(pairs);
+  fg__dataset_close(&data);
+  return status;
+}
+
+fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
+                                const fg__dataset_format *format,
+                                const fg__source *source, const fg_read_options *options)
+{
+  fg__vector_choice *c;
+  if (!options)
+    return describe_all(inventory, context, format, source);
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
+  return fg__vector_choice_leave(c, source, status);
+}
+
+fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
+                               const fg__dataset_format *format, const fg__source *source,
+                               const fg_read_options *options)
+{
+  fg__vector_choice *c;
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
+  return fg__vector_choice_leave(c, source, status);
+}

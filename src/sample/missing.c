@@ -1,0 +1,158 @@
+#include "sample/missing.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DIGITS = 8 }; /* a float has no more */
+
+/* Codes for missing data have at least this size in the conventions of all formats. */
+static const float SMALLEST_CODE = 99.0F;
+
+/* A customary code lies apart from other values by this share of their range; any other
+ * number is this many times as large as they are. */
+static const double CUSTOMARY_GAP = 0.2, LEAST_RATIO = 10.0;
+
+fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
+                           const char *missing)
+{
+  *out = (fg__missing_numbers){0};
+  if (!missing)
+    return FG_STATUS_OK;
+  out->none = strcmp(missing, "none") == 0;
+  for (const char *at = missing; !out->none; ++at) {
+    char *end;
+    const double number = strtod(at, &end);
+    if (end == at || (*end && *end != ',') || out->count == FG__MOST_FILLS) {
+      fg__fail(context, FG_STATUS_ARGUMENT, "'%.100s' lists no missing values", missing);
+      fg__hint(context, "up to %d numbers with commas between, as -9999,1e20; or none",
+               FG__MOST_FILLS);
+      return FG_STATUS_ARGUMENT;
+    }
+    out->number[out->count++] = number;
+    at = end;
+    if (!*at)
+      break;
+  }
+  return FG_STATUS_OK;
+}
+
+/* The greatest or least number of a component, how often it occurs, and the next one. */
+typedef struct extreme {
+  float value, next;
+  size_t count;
+} extreme;
+
+typedef struct extremes {
+  extreme low, high;
+  size_t count; /* of numbers */
+} extremes;
+
+static void take_low(extreme *e, float value)
+{
+  if (value < e->value) {
+    *e = (extreme){value, e->value, 1};
+  } else if (value > e->value) {
+    e->next = value;
+  } else {
+    ++e->count;
+  }
+}
+
+static void take_high(extreme *e, float value)
+{
+  if (value > e->value) {
+    *e = (extreme){value, e->value, 1};
+  } else if (value < e->value) {
+    e->next = value;
+  } else {
+    ++e->count;
+  }
+}
+
+static bool is_present(const fg__raw_samples *s, size_t i)
+{
+  bool present = !s->valid || s->valid[i];
+  for (int k = 0; k < s->components; ++k)
+    present = present && isfinite(s->component[k][i]);
+  return present;
+}
+
+/* Of the samples that all components have. */
+static extremes find_extremes(const fg__raw_samples *s, int k)
+{
+  extremes e = {{INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, 0}, 0};
+  for (size_t i = 0; i < s->count; ++i) {
+    const float value = s->component[k][i];
+    if (!is_present(s, i))
+      continue;
+    ++e.count;
+    if (value < e.low.next)
+      take_low(&e.low, value);
+    if (value > e.high.next)
+      take_high(&e.high, value);
+  }
+  return e;
+}
+
+/* Numbers that programs write for missing data and that may be near to other values:
+ * nines alone, as -99.9 and 9999, and the ends of whole numbers in two bytes. */
+static bool is_customary(float value)
+{
+  const float size = fabsf(value);
+  if (size >= 32767.0F && size <= 32768.0F)
+    return true;
+  double nines = 9.0;
+  for (int n = 1; n < DIGITS; ++n, nines = 10.0 * nines + 9.0)
+    for (double scale = 1.0; scale < 1e6; scale *= 10.0)
+      if (size >= (float)(nines / scale) && size <= (float)(nines / scale))
+        return true;
+  return false;
+}
+
+/* Whether an extreme stands for missing data; `other` is the opposite end of all others.
+ */
+static bool is_code(const extreme *e, float other)
+{
+  if (e->count < 2 || !(fabsf(e->value) >= SMALLEST_CODE) || !isfinite(e->next))
+    return false;
+  const double gap = fabs((double)e->value - (double)e->next);
+  const double range = fabs((double)e->next - (double)other);
+  const double largest = fmax(fabs((double)e->next), fabs((double)other));
+  return is_customary(e->value)
+             ? gap >= CUSTOMARY_GAP * range && fabs((double)e->value) > largest
+             : largest > 0.0 && fabs((double)e->value) >= LEAST_RATIO * largest;
+}
+
+static fg_status refuse(fg_context *context, const fg__raw_samples *s, int k,
+                        const extreme *e, const extremes *all, float other)
+{
+  const double a = (double)e->next, b = (double)other;
+  fg__fail(context, FG_STATUS_ARGUMENT,
+           "%s: '%.100s' is %.7g at %zu of %zu samples (%.2g %%) and otherwise from %.4g "
+           "to %.4g: missing data that the file does not declare",
+           s->path, s->name[k], (double)e->value, e->count, all->count,
+           100.0 * (double)e->count / (double)all->count, fmin(a, b), fmax(a, b));
+  fg__hint(context,
+           "--missing=%.7g takes it for missing; --missing none takes it for a value",
+           (double)e->value);
+  return FG_STATUS_ARGUMENT;
+}
+
+fg_status fg__missing_settle(fg_context *context, const fg__raw_samples *samples,
+                             const fg__missing_numbers *given)
+{
+  for (int k = 0; k < samples->components && given->count > 0; ++k)
+    for (size_t i = 0; i < samples->count; ++i)
+      if (fg__is_given_missing(given, (double)samples->component[k][i]))
+        samples->component[k][i] = NAN;
+  for (int k = 0; k < samples->components && !given->none; ++k) {
+    const extremes all = find_extremes(samples, k);
+    if (is_code(&all.high, all.low.value))
+      return refuse(context, samples, k, &all.high, &all, all.low.value);
+    if (is_code(&all.low, all.high.value))
+      return refuse(context, samples, k, &all.low, &all, all.high.value);
+  }
+  return FG_STATUS_OK;
+}

@@ -1,0 +1,15 @@
+/* What a variable, column or array is called, and what it says of itself. */
+#ifndef FG__TERM_H
+#define FG__TERM_H
+
+#include <stdbool.h>
+
+typedef struct fg__term {
+  const char *name;
+  const char *standard_name, *long_name, *units; /* NULL: it has none */
+  int place; /* equal for variables whose samples are at the same points */
+  int group; /* components of one vector are of one group, such as points or cells */
+  int file;  /* the one that has it, of two; -1: either */
+} fg__term;
+
+#endif
