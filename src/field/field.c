@@ -269,6 +269,14 @@ fg_status fg__field_check_counts(fg_context *context, const fg__slab_counts *cou
   return FG_STATUS_OK;
 }
 
+/* Where no sample is missing every cell is valid, and one that moves is enough. */
+static void count_all_cells(const fg_field *field, size_t cells, fg__slab_counts *counts)
+{
+  counts->cells = counts->valid_cells = cells;
+  for (size_t i = 0; i < counts->samples && !counts->moving_cells; ++i)
+    counts->moving_cells = moves(field, i);
+}
+
 static fg_status fill_whole(fg_field *field, fg_context *context,
                             const fg_field_arrays *arrays, float *taken[3])
 {
@@ -278,19 +286,16 @@ static fg_status fill_whole(fg_field *field, fg_context *context,
   if (status != FG_STATUS_OK)
     return status;
   counts.missing = missing;
-  if (missing == counts.samples)
-    return fg__field_check_counts(context, &counts);
-  if (missing > 0)
-    status = mark_missing(field, context);
   for (int k = 0; k < arrays->dimension; ++k)
     cells *= (size_t)field->axis[k].cells;
-  if (missing > 0 && status == FG_STATUS_OK) {
-    field->valid_cell = fg__allocate(cells, 1);
-    if (!field->valid_cell)
-      status = fg__fail_memory(context, "the cells", cells);
-  }
-  if (status != FG_STATUS_OK)
-    return status;
+  if (missing == 0)
+    count_all_cells(field, cells, &counts);
+  if (missing == 0 || missing == counts.samples)
+    return fg__field_check_counts(context, &counts);
+  status = mark_missing(field, context);
+  field->valid_cell = status == FG_STATUS_OK ? fg__allocate(cells, 1) : NULL;
+  if (!field->valid_cell)
+    return status == FG_STATUS_OK ? fg__fail_memory(context, "the cells", cells) : status;
   find_cells(field, 0, field->held[fg__field_last_axis(field)], field->valid_cell,
              &counts);
   return fg__field_check_counts(context, &counts);
