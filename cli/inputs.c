@@ -15,6 +15,10 @@ static unsigned char *bytes;
 
 enum { FIRST_BYTES = 1 << 20 };
 
+/* Of standard input, which is kept in memory and may have no end; unless --max-memory
+ * says another number. */
+static const double MOST_BYTES = 1073741824.0;
+
 /* Three quarters of the machine's memory. */
 static double default_memory(void)
 {
@@ -36,7 +40,8 @@ static bool grow(size_t *capacity, size_t used)
   return true;
 }
 
-static int read_all(void)
+/* At most `most` bytes. */
+static int read_all(double most)
 {
   size_t capacity = 0, used = 0;
   for (;;) {
@@ -48,8 +53,8 @@ static int read_all(void)
     if (got < 0 && errno != EINTR)
       return complain_of_file("standard input", "cannot be read");
     used += got > 0 ? (size_t)got : 0;
-    if (given.most_memory > 0.0 && (double)used > given.most_memory) {
-      complain("standard input: more than %.0f bytes", given.most_memory);
+    if ((double)used > most) {
+      complain("standard input: more than %.0f bytes", most);
       advise("--max-memory SIZE allows more.");
       return EXIT_FAILED;
     }
@@ -59,7 +64,7 @@ static int read_all(void)
   return EXIT_DONE;
 }
 
-static int read_standard_input(int ranks)
+static int read_standard_input(const input_settings *settings, int ranks)
 {
   if (ranks > 1) {
     complain("standard input: cannot be an input of several processes");
@@ -71,7 +76,7 @@ static int read_standard_input(int ranks)
     advise("Say which file, as in: flowgrain info - <FILE");
     return EXIT_FAILED;
   }
-  return read_all();
+  return read_all(settings->max_memory ? given.most_memory : MOST_BYTES);
 }
 
 int inputs_prepare(const input_settings *settings, const char *const *inputs, int count,
@@ -83,7 +88,7 @@ int inputs_prepare(const input_settings *settings, const char *const *inputs, in
     value_read_size(&given.most_memory, settings->max_memory);
   for (int k = 0; k < count; ++k)
     if (input_is_standard(inputs[k]))
-      return read_standard_input(ranks);
+      return read_standard_input(settings, ranks);
   return EXIT_DONE;
 }
 

@@ -1,5 +1,5 @@
 /* SIGINT, SIGTERM and SIGHUP: the first stops the evolution after its step, the second
- * also the drawing. */
+ * also the drawing. SIGBUS: see below. */
 #ifndef INTERRUPT_H
 #define INTERRUPT_H
 
@@ -21,5 +21,9 @@ int interrupt_count(void);
 
 /* From here on signals do not stop any context. */
 void interrupt_end(void);
+
+/* Files are mapped into memory, and reading one beyond its end is a SIGBUS: from here on
+ * it ends the program with EXIT_FAILED and the file's name. */
+void interrupt_at_lost_bytes(void);
 
 #endif

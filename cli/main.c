@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "interrupt.h"
 #include "program.h"
 #include "ranks.h"
 
@@ -39,6 +40,7 @@ int main(int argc, char **argv)
 {
   hold_standard_streams();
   take_file_limits_as_errors();
+  interrupt_at_lost_bytes();
   int code = ranks_start();
   code = finish(code ? code : program_perform(argc, argv));
   ranks_end();

@@ -17,14 +17,24 @@ void keep_complaints(void)
   silent = true;
 }
 
-/* Bytes of the UTF-8 character at `text`. */
-static size_t character_bytes(const unsigned char *text)
+size_t character_bytes(const unsigned char *text)
 {
-  size_t wanted = *text >= 0xf0 ? 4 : *text >= 0xe0 ? 3 : *text >= 0xc2 ? 2 : 1;
-  size_t bytes = 1;
-  while (bytes < wanted && (text[bytes] & 0xc0) == 0x80)
-    ++bytes;
-  return bytes == wanted ? wanted : 1;
+  const unsigned char first = text[0];
+  const size_t bytes = first < 0x80    ? 1
+                       : first < 0xc2  ? 0
+                       : first < 0xe0  ? 2
+                       : first < 0xf0  ? 3
+                       : first <= 0xf4 ? 4
+                                       : 0;
+  /* no overlong forms, no surrogates, nothing past U+10FFFF */
+  const unsigned char least = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned char most = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  if (bytes > 1 && (text[1] < least || text[1] > most))
+    return 0;
+  for (size_t k = 2; k < bytes; ++k)
+    if ((text[k] & 0xc0) != 0x80)
+      return 0;
+  return bytes;
 }
 
 /* Control characters of ASCII, and of Unicode from 0x80 to 0x9f, also as single bytes. */
@@ -40,6 +50,7 @@ static void blank_controls(char *text)
 {
   for (unsigned char *at = (unsigned char *)text; *at;) {
     size_t bytes = character_bytes(at);
+    bytes += bytes == 0;
     if (is_control(at, bytes))
       memset(at, '?', bytes);
     at += bytes;

@@ -21,6 +21,9 @@ void advise(const char *format, ...) __attribute__((format(printf, 1, 2)));
  * one; nothing for a width of 0. */
 void tell_key_width(const char *picture, double width);
 
+/* Bytes of the UTF-8 character (RFC 3629) at `text`; 0: there is none. */
+size_t character_bytes(const unsigned char *text);
+
 /* Copies a text from a file without terminal escapes: control characters become '?'.
  * Returns `out`; longer texts are cut. */
 enum { CLEAN_BYTES = 1024 };
@@ -58,6 +61,9 @@ void report_doubts(const char *file, const fg_field *field);
  * memory. To be freed. */
 char *join_texts(const char *first, const char *second);
 char *join_path(const char *folder, const char *name);
+
+/* What is wrong with a file of which mapped bytes are no longer there: after its name. */
+#define BECAME_SHORTER "became shorter while it was read, or its disk failed"
 
 /* Performs a command line, where argv[0] is the program; returns its exit code. */
 int program_perform(int argc, char **argv);

@@ -42,6 +42,9 @@ typedef struct fg_field_arrays {
   ...;
 } fg_field_arrays;
 fg_status fg_field_create(fg_field **out, fg_context *context, const fg_field_arrays *arrays);
+fg_status fg_field_create_scattered(fg_field **out, fg_context *context,
+                                    const fg_field_arrays *points);
+const fg_field_arrays *fg_field_contents(const fg_field *field);
 void fg_field_destroy(fg_field *field);
 
 typedef struct fg_density fg_density;

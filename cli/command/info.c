@@ -1,5 +1,4 @@
 /* Prints the contents of a file. */
-#include <cjson/cJSON.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +7,7 @@
 #include "command/command.h"
 #include "inputs.h"
 #include "option/table.h"
+#include "report/json.h"
 
 static int name_count(const fg_inventory_vector *vector)
 {
@@ -185,7 +185,7 @@ static int print_json(const listing *list)
   cJSON *array = cJSON_AddArrayToObject(root, "vectors");
   for (int k = 0; k < count_of(list); ++k)
     add_vector(array, vector_at(list, k));
-  char *text = cJSON_Print(root);
+  char *text = json_print(root);
   if (text)
     puts(text);
   else

@@ -1,5 +1,4 @@
 /* Prints the error with which icons represent a field. */
-#include <cjson/cJSON.h>
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,6 +7,7 @@
 #include "command/command.h"
 #include "inputs.h"
 #include "option/table.h"
+#include "report/json.h"
 #include "series/places.h"
 
 typedef struct score_work {
@@ -144,7 +144,7 @@ static int print_json(const score_work *work)
   for (int n = 0; n < work->settings->files.count; ++n)
     cJSON_AddItemToArray(root,
                          describe(&work->scores[n], work->settings->files.operand[n]));
-  char *text = cJSON_Print(root);
+  char *text = json_print(root);
   if (text)
     puts(text);
   else

@@ -1,11 +1,11 @@
 #include "folder/made.h"
 
-#include <cjson/cJSON.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "folder/file.h"
+#include "report/json.h"
 #include "report/past_run.h"
 
 enum { REPORTS = 3 };
@@ -57,7 +57,7 @@ static cJSON *read_report(const char *folder, const char *file)
 {
   char *path = folder ? join_path(folder, file) : NULL;
   char *text = path && is_plain_file(path) ? read_text(path) : NULL;
-  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  cJSON *tree = json_parse(text);
   const cJSON *program = cJSON_GetObjectItemCaseSensitive(tree, "program");
   if (!cJSON_IsString(program) || strcmp(program->valuestring, "flowgrain") != 0) {
     cJSON_Delete(tree);
@@ -147,7 +147,7 @@ int made_check_inputs(const char *folder, const char *const *inputs, int count)
 
 static int write_report(const char *folder, const cJSON *report)
 {
-  char *path = join_path(folder, REPORT_NAME), *text = cJSON_Print(report);
+  char *path = join_path(folder, REPORT_NAME), *text = json_print(report);
   int code = path && text ? write_text_file(path, text) : EXIT_FAILED;
   cJSON_free(text);
   free(path);

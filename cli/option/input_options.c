@@ -59,8 +59,10 @@ static const option_entry input_entries[] = {
      .help = "read INPUT as netcdf, vtk, table or another format by its name [found from "
              "the content]"},
     {"max-memory", 0, "SIZE", INPUTS, OPTION_TEXT, INPUT(max_memory),
-     .help = "bytes that the samples of a field may take, as 500M or 2G; what declares "
-             "more is refused [three quarters of the machine's]"},
+     .help =
+         "bytes that the samples of a field, and standard input, may take, as 500M or "
+         "2G; what has more is refused [three quarters of the machine's; for standard "
+         "input 1G]"},
     {"block", 0, "NAME", DESCRIBERS, OPTION_TEXT, READING(block),
      .help = "of a file of several blocks (.vtm), the one of this name or those in it "
              "[all together]"},

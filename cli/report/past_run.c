@@ -1,6 +1,5 @@
 #include "report/past_run.h"
 
-#include <cjson/cJSON.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -13,6 +12,7 @@
 #include "folder/files.h"
 #include "option/recorded.h"
 #include "option/table.h"
+#include "report/json.h"
 
 /* Opening a pipe would block, and a device may have no end. */
 static FILE *open_regular(const char *path)
@@ -89,7 +89,7 @@ static cJSON *read_tree(const char *folder)
     return NULL;
   char *path = join_path(folder, REPORT_NAME);
   char *text = path ? read_text(path) : NULL;
-  cJSON *tree = text ? cJSON_Parse(text) : NULL;
+  cJSON *tree = json_parse(text);
   free(text);
   free(path);
   return tree;
@@ -214,7 +214,7 @@ int report_read(cli_report *out, const char *folder)
     advise("Name the folder of a finished `flowgrain run`.");
   if (!text)
     goto cleanup;
-  out->tree = cJSON_Parse(text);
+  out->tree = json_parse(text);
   fill_reading(out, cJSON_GetObjectItemCaseSensitive(out->tree, "input"));
   fill_placement(out, cJSON_GetObjectItemCaseSensitive(out->tree, "parameters"));
   const cJSON *mesh = cJSON_GetObjectItemCaseSensitive(out->tree, "mesh");

@@ -2,7 +2,6 @@
 
 #include "report/coarsening.h"
 
-#include <cjson/cJSON.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 #include "option/recorded.h"
 #include "option/table.h"
 #include "report/communication.h"
+#include "report/json.h"
 
 static void add_text(cJSON *object, const char *name, const char *text)
 {
@@ -265,7 +265,7 @@ int report_write(const char *path, const run_facts *facts)
   add_input(root, facts);
   add_parameters(root, facts);
   add_outcome(root, facts);
-  char *text = cJSON_Print(root);
+  char *text = json_print(root);
   if (text)
     code = write_text(path, text);
   else

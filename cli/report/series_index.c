@@ -1,6 +1,5 @@
 #include "report/series_index.h"
 
-#include <cjson/cJSON.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 #include "folder/files.h"
 #include "option/recorded.h"
 #include "option/table.h"
+#include "report/json.h"
 #include "report/past_run.h"
 
 bool series_is_there(const char *folder)
@@ -79,7 +79,7 @@ static cJSON *describe(const series_index *index)
 int index_write(const series_index *index)
 {
   cJSON *root = describe(index);
-  char *text = cJSON_Print(root), *path = join_path(index->settings->output, SERIES_NAME);
+  char *text = json_print(root), *path = join_path(index->settings->output, SERIES_NAME);
   int code = text && path ? write_text_file(path, text) : complain_of_memory(SERIES_NAME);
   free(path);
   cJSON_free(text);
@@ -92,7 +92,7 @@ static cJSON *read_index(const char *folder)
 {
   char *path = join_path(folder, SERIES_NAME);
   char *text = path ? read_text(path) : NULL;
-  cJSON *root = text ? cJSON_Parse(text) : NULL;
+  cJSON *root = json_parse(text);
   const char *program =
       cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(root, "program"));
   if (text && (!program || strcmp(program, "flowgrain") != 0)) {

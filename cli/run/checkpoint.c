@@ -1,6 +1,5 @@
 #include "run/checkpoint.h"
 
-#include <cjson/cJSON.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -14,6 +13,7 @@
 #include "option/table.h"
 #include "ranks.h"
 #include "report/coarsening.h"
+#include "report/json.h"
 
 /* cJSON may write only 15 digits of a number. */
 static void add_exact(cJSON *object, const char *name, double value)
@@ -129,7 +129,7 @@ static char *describe(const cli_run *run)
   add_exact(root, "seconds_icons", drawing_icon_seconds(run->drawing));
   add_exact(root, "seconds_pictures", drawing_picture_seconds(run->drawing));
   add_exact(root, "seconds_total", run->earlier_total + now - run->start);
-  char *text = cJSON_Print(root);
+  char *text = json_print(root);
   cJSON_Delete(root);
   return text;
 }
@@ -343,7 +343,7 @@ static int resume(cli_run *run, const fg_checkpoint *checkpoint)
   bool is_previous = *fg_checkpoint_damage(checkpoint);
   if (is_previous && ranks_leader())
     complain("%s; the previous checkpoint is used", fg_checkpoint_damage(checkpoint));
-  cJSON *note = cJSON_Parse(fg_checkpoint_note(checkpoint));
+  cJSON *note = json_parse(fg_checkpoint_note(checkpoint));
   int code = ranks_agree(check_note(run, note));
   if (!code) {
     fg_run_record record;

@@ -1,6 +1,5 @@
 #include "view/pages.h"
 
-#include <cjson/cJSON.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +8,7 @@
 
 #include "folder/file.h"
 #include "folder/results.h"
+#include "report/json.h"
 
 /* Larger files are not pages. */
 enum { MOST_BYTES = 1 << 28 };
@@ -105,7 +105,7 @@ static void give_state(cli_answer *out, const view_pages *pages, const char *fol
   cJSON_AddNumberToObject(state, "share", child->share);
   cJSON_AddNumberToObject(state, "densities", child->densities.count);
   add_pictures(state, folder);
-  char *text = cJSON_PrintUnformatted(state);
+  char *text = json_print(state);
   cJSON_Delete(state);
   if (text)
     *out = (cli_answer){

@@ -65,7 +65,9 @@ typedef struct fg_read_options {
  * taken; fg_input_options (context.h) limits what the field's samples take. A chunk of a
  * NetCDF-4 file takes 256 MiB at most, once it is inflated, too. But libhdf5, under
  * NetCDF-4, and ecCodes, under GRIB, can crash or go on for ever where a file's structure
- * is damaged: fg_input_options.isolate keeps that from the process that calls them. */
+ * is damaged: fg_input_options.isolate keeps that from the process that calls them. Files
+ * are mapped: one that becomes shorter meanwhile is refused, FILE_ACCESS, but it can send
+ * SIGBUS to the process before, which the program ends at (cli/interrupt.c). */
 FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                                const fg_read_options *options);
 
@@ -108,6 +110,20 @@ typedef struct fg_field_arrays {
 FG_API fg_status fg_field_create(fg_field **out, fg_context *context,
                                  const fg_field_arrays *arrays);
 FG_API void fg_field_destroy(fg_field *field);
+
+/* Makes a field of vectors at scattered points, in any order. Of `points` size[0] is
+ * their number, from 3 on; axis[k] and velocity[k] are each point's coordinate and
+ * component along k, size[0] numbers each; valid has a byte a point; other sizes and
+ * periods do not count. Points on a grid along the axes become its samples. Others are
+ * interpolated onto an even raster, linearly in Delaunay's triangles, with scale GEO on
+ * the sphere, or in space, from 64 points on, by local linear fits; it is missing beyond
+ * them and in gaps (docs/design/points.md). Points in space that lie in a plane give a
+ * field in 2D in that plane. Points at one place become their mean. Copies what it needs.
+ * ARGUMENT (fewer than 3 points, a coordinate that is no number, more than a tenth of
+ * them at places of others with other values; and as fg_field_create), UNSUPPORTED (all
+ * on one line, too few in space), MEMORY, STOPPED. */
+FG_API fg_status fg_field_create_scattered(fg_field **out, fg_context *context,
+                                           const fg_field_arrays *points);
 
 /* The field's own arrays and words, borrowed; no pointer in it is NULL but `valid` (then
  * every sample counts), in 2D `axis[2]`, `velocity[2]`, and `time`, `level` (not chosen),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, Iterator, NamedTuple, Sequence, overload
 
 import numpy as np
 
 from ._core import ffi, lib
-from ._grid import Grid, make_grid
+from ._grid import Grid, make_grid, mesh_rank
 from ._library import Context, copy
 
 KINDS = ("arrow", "ring", "spiral")
@@ -542,37 +543,27 @@ class _Placed:
 
 
 def arrows(
-    u: Any,
-    v: Any,
-    x: Any = None,
-    y: Any = None,
-    *,
-    w: Any = None,
-    z: Any = None,
-    n: int = 40,
-    mask: Any = None,
-    period: Any = None,
-    tolerance: float | None = None,
-    seed: int = 1,
-    scale: str = "plain",
-    kind: str = "arrows",
-    start: str = "clusters",
-    anisotropy: float | None = None,
-    coverage: float | None = None,
-    nodes: int | None = None,
-    lengths: str = "free",
-    effort: str = "normal",
+    *args: Any, x: Any = None, y: Any = None, z: Any = None, u: Any = None, v: Any = None,
+    w: Any = None, n: int = 40, mask: Any = None, period: Any = None,
+    tolerance: float | None = None, seed: int = 1, scale: str = "plain", kind: str = "arrows",
+    start: str = "clusters", anisotropy: float | None = None, coverage: float | None = None,
+    nodes: int | None = None, lengths: str = "free", effort: str = "normal",
     threads: int | None = None,
 ) -> Arrows:
-    """Shows a vector field by few curved arrows.
+    """Shows a vector field by few curved arrows: ``arrows([x, y], u, v)``, as `quiver`, or by name.
 
     The arrows are those of the program: ``flowgrain run FILE --arrows N``.
 
+    The order of the first release, ``arrows(u, v, x, y)``, is still taken, with a FutureWarning,
+    where x and y are axes, or a mesh grid while u and v are none. Where both pairs may be either,
+    as those of a saddle, they are x, y, u, v, and a UserWarning says so; names leave no doubt.
+
     Parameters
     ----------
-    u, v : array_like, (ny, nx); with `w` (nz, ny, nx)
+    u, v : array_like, (ny, nx); with `w` (nz, ny, nx); or (n,) of scattered points
         Components of the velocity along x and y, numbers of any type. Masked and NaN samples are
-        missing: no arrow goes there.
+        missing: no arrow goes there. Between points, as stations, the field is interpolated as the
+        program does it of a table's: in triangles, in 3D by local fits, and not over gaps.
     x, y : array_like, (nx,) and (ny,), or both of the shape of u; optional
         Coordinates, ascending or descending, evenly spaced or not; by default 0, 1, ... Those of a
         curvilinear grid have the shape of u; the field is then interpolated onto an even raster,
@@ -623,11 +614,11 @@ def arrows(
     --------
     >>> import numpy as np, flowgrain
     >>> y, x = np.mgrid[0:6:61j, 0:8:81j]
-    >>> few = flowgrain.arrows(-np.cos(x) * np.sin(y), np.sin(x) * np.cos(y), x, y, n=12)
+    >>> few = flowgrain.arrows(x, y, -np.cos(x) * np.sin(y), np.sin(x) * np.cos(y), n=12)
     >>> len(few), few.paths[0].shape[1]
     (12, 2)
     """
-    grid = _grid_of(u, v, w, x, y, z, mask, period, scale)
+    grid = _grid_of(args, [u, v, w], [x, y, z], mask, period, scale)
     if tolerance is not None:
         degrees = _positive("tolerance", tolerance, "a number of degrees above 0")
         return _Within(grid, degrees, lengths, effort).arrows
@@ -640,28 +631,13 @@ def arrows(
 
 
 def evolve(
-    u: Any,
-    v: Any,
-    x: Any = None,
-    y: Any = None,
-    *,
-    w: Any = None,
-    z: Any = None,
-    n: Sequence[int] | None = None,
-    mask: Any = None,
-    period: Any = None,
-    seed: int = 1,
-    scale: str = "plain",
-    kind: str = "arrows",
-    start: str = "clusters",
-    anisotropy: float | None = None,
-    coverage: float | None = None,
-    nodes: int | None = None,
-    lengths: str = "free",
-    effort: str = "normal",
-    threads: int | None = None,
+    *args: Any, x: Any = None, y: Any = None, z: Any = None, u: Any = None, v: Any = None,
+    w: Any = None, n: Sequence[int] | None = None, mask: Any = None, period: Any = None,
+    seed: int = 1, scale: str = "plain", kind: str = "arrows", start: str = "clusters",
+    anisotropy: float | None = None, coverage: float | None = None, nodes: int | None = None,
+    lengths: str = "free", effort: str = "normal", threads: int | None = None,
 ) -> Iterator[Arrows]:
-    """Iterates over scales, from many arrows to few.
+    """Iterates over scales, from many arrows to few: ``evolve([x, y], u, v)``, as `arrows`.
 
     An arrow keeps its `Arrows.id` from scale to scale. `Arrows.parent` tells which arrow of the
     next scale it goes into; it is known once that scale has been asked for.
@@ -685,7 +661,7 @@ lengths, effort, threads
     ValueError, MemoryError
         As `arrows`.
     """
-    grid = _grid_of(u, v, w, x, y, z, mask, period, scale)
+    grid = _grid_of(args, [u, v, w], [x, y, z], mask, period, scale)
     run = _Run(grid, None if n is None else list(n), kind=kind, seed=seed, anisotropy=anisotropy,
                coverage=coverage, nodes=nodes, start=start, lengths=lengths, effort=effort,
                threads=threads)
@@ -700,10 +676,34 @@ def _scales(run: _Run) -> Iterator[Arrows]:
         found = run.next(found)
 
 
-def _grid_of(u: Any, v: Any, w: Any, x: Any, y: Any, z: Any, mask: Any, period: Any,
-             scale: str) -> Grid:
-    if w is None:
-        if z is not None:
-            raise ValueError("z is given without w")
-        return make_grid([u, v], [x, y], mask, period, scale)
-    return make_grid([u, v, w], [x, y, z], mask, period, scale)
+def _grid_of(args: tuple[Any, ...], velocity: list[Any], places: list[Any], mask: Any,
+             period: Any, scale: str) -> Grid:
+    lacking = [pair for pair in (places, velocity) if pair[0] is None and pair[1] is None]
+    if len(args) == 4 and len(lacking) == 2:
+        args = _in_order(args)
+        places[:2], velocity[:2] = args[:2], args[2:]
+    elif len(args) == 2 and lacking:
+        lacking[-1][:2] = args
+    elif args:
+        raise TypeError("([x, y], u, v) are needed, in this order or by their names")
+    if velocity[0] is None or velocity[1] is None:
+        raise TypeError("both u and v are needed")
+    if velocity[2] is None and places[2] is not None:
+        raise ValueError("z is given without w")
+    dimension = 2 if velocity[2] is None else 3
+    return make_grid(velocity[:dimension], places[:dimension], mask, period, scale)
+
+
+def _in_order(args: tuple[Any, ...]) -> tuple[Any, ...]:
+    """x, y, u, v, which may be given as u, v, x, y."""
+    one, other = (min(np.ma.asanyarray(a).ndim for a in pair) for pair in (args[:2], args[2:]))
+    if one == other > 1:
+        one, other = mesh_rank(*args[2:]), mesh_rank(*args[:2])
+        if one == other > 0 and not all(map(np.array_equal, args[:2], args[2:])):
+            warnings.warn("both pairs of arrays may be coordinates: taken as x, y, u, v; "
+                          "arrows(x=..., y=..., u=..., v=...) leaves no doubt", stacklevel=4)
+    if one <= other:
+        return args
+    warnings.warn("taken as u, v, x, y: give x and y first, arrows(x, y, u, v), as in quiver, or "
+                  "all four by name; this order will be refused", FutureWarning, stacklevel=4)
+    return args[2:] + args[:2]

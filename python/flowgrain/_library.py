@@ -11,7 +11,9 @@ from ._core import ffi, lib
 
 
 # what hints name, and what it is here
-OPTIONS = (("--scale plain", "scale='plain'"), ("Take a larger gamma or more", "Take more"))
+OPTIONS = (("--scale plain", "scale='plain'"), ("Take a larger gamma or more", "Take more"),
+           ("name the column of times or levels t or z, or leave", "leave"),
+           (" in the file", ""), ("leave such values empty, or write nan", "make it NaN"))
 
 
 class Context:

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from ._dataset import ANGLES, MASKS, check_units, eastward, frame_by_terms, role_of
+from ._grid import on_sphere
 
 FRAMES = ("auto", "east", "grid")
 # on which side of a centre the face of the same index lies
@@ -124,8 +125,7 @@ def turned(u: np.ndarray, v: np.ndarray, longitude: np.ndarray, latitude: np.nda
     """Components along the grid as those along east and north; `back`: the other way. The grid's
     direction is that of its positions."""
     lon, lat = np.radians(longitude), np.radians(latitude)
-    place = np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)])
-    way = np.gradient(place, axis=-1)
+    way = np.gradient(on_sphere(longitude, latitude), axis=-1)
     east = way[1] * np.cos(lon) - way[0] * np.sin(lon)
     north = way[2] * np.cos(lat) - np.sin(lat) * (way[0] * np.cos(lon) + way[1] * np.sin(lon))
     size = np.hypot(east, north)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ._grid import _coordinate, _reduced
+from ._grid import on_sphere
 
 
 class TransformPlane:
@@ -34,11 +34,10 @@ class TransformPlane:
     def has_data_limits(self) -> bool:
         return self._transform is None or self._transform.contains_branch(self._ax.transData)
 
-    def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-        return _axes_of(x, y, shape)
-
-    def period(self, x: np.ndarray, count: int) -> float | None:
-        return 2.0 * np.pi if self._ax.name == "polar" and _closes(x, 2.0 * np.pi) else None
+    @property
+    def circle(self) -> float:
+        """After which x is the same place again; 0: never."""
+        return 2.0 * np.pi if self._ax.name == "polar" else 0.0
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Places, (n, 2); NaN where there are none."""
@@ -50,6 +49,10 @@ class TransformPlane:
         with np.errstate(all="ignore"):
             x, y = np.ma.filled(self._to_axes.inverted().transform(places), np.nan).T
         return x, y
+
+    def space(self, x: np.ndarray, y: np.ndarray, page: np.ndarray) -> Any:
+        """Coordinates in which neighbours are close to each other: those on the page."""
+        return np.moveaxis(page, -1, 0)
 
     def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
              page: np.ndarray) -> list[np.ndarray]:
@@ -80,11 +83,9 @@ class CrsPlane:
     def _to_axes(self) -> Any:
         return self._ax.transData - self._ax.transAxes
 
-    def axes(self, x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-        return _axes_of(x, y, shape)
-
-    def period(self, x: np.ndarray, count: int) -> float | None:
-        return 360.0 if self.is_geographic and _closes(x, 360.0) else None
+    @property
+    def circle(self) -> float:
+        return 360.0 if self.is_geographic else 0.0
 
     def forward(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         plane = self._ax.projection.transform_points(self._crs, np.asarray(x), np.asarray(y))
@@ -104,6 +105,10 @@ class CrsPlane:
         """Corners of the map's own extent."""
         (left, right), (low, high) = self._ax.projection.x_limits, self._ax.projection.y_limits
         return self._to_axes.transform([(left, low), (right, high)])
+
+    def space(self, x: np.ndarray, y: np.ndarray, page: np.ndarray) -> Any:
+        """As that of TransformPlane: those on the sphere, or of the CRS."""
+        return on_sphere(x, y) if self.is_geographic else [x, y]
 
     def turn(self, x: np.ndarray, y: np.ndarray, u: np.ndarray, v: np.ndarray,
              page: np.ndarray) -> list[np.ndarray]:
@@ -141,14 +146,10 @@ def _finite(places: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(places).all(-1, keepdims=True), places, np.nan)
 
 
-def _closes(x: np.ndarray, period: float) -> bool:
-    """Whether an axis goes once round."""
-    way = abs(x[-1] - x[0])
+def period_of(x: np.ndarray, circle: float) -> float | None:
+    """The circle where an axis, in any order, goes once round it."""
+    x = np.unique(x)
+    way = x[-1] - x[0]
     step = way / max(len(x) - 1, 1)
-    return bool(abs(way + step - period) < 0.01 * step or abs(way - period) < 0.01 * step)
-
-
-def _axes_of(x: np.ndarray, y: np.ndarray, shape: tuple[int, ...]) -> Any:
-    """Axes, from coordinates of each sample too; None: the grid is curvilinear."""
-    axes = _reduced([_coordinate(0, x, shape), _coordinate(1, y, shape)], shape)
-    return None if any(axis.ndim > 1 for axis in axes) else axes
+    closes = abs(way + step - circle) < 0.01 * step or abs(way - circle) < 0.01 * step
+    return circle if circle and closes else None

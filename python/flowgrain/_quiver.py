@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,9 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox, IdentityTransform, Transform
 
 from ._arrows import GALE, Arrows, _choice, _whole, line_outline, place
-from ._grid import (Grid, interpolate, make_grid, real_array, resample_triangles, thinned,
-                    velocity_array)
-from ._plane import CrsPlane, TransformPlane
+from ._grid import (Grid, axes_of, interpolate, make_grid, mesh_rank, over_no_gap, real_array,
+                    resample_triangles, thinned, velocity_arrays)
+from ._plane import CrsPlane, TransformPlane, period_of
 
 #: the program's default palette: slow is light, fast is dark, all stand out from white
 gale = LinearSegmentedColormap.from_list("gale", GALE)
@@ -75,18 +76,12 @@ class Quiver(PatchCollection):
     def _set_samples(self, u: Any, v: Any, c: Any) -> None:
         x, y = self._given
         shape = np.ma.asanyarray(u).shape
-        axes = self._plane.axes(x, y, shape)
-        if axes is None:  # a curvilinear grid
-            self._grid = None
-            velocity = [velocity_array(name, a, shape) for name, a in (("u", u), ("v", v))]
-            if self._mask is not None:
-                for samples in velocity:
-                    samples[np.ma.filled(np.ma.asanyarray(self._mask), True).astype(bool)] = np.nan
-            self._velocity = [samples.astype(np.float64) for samples in velocity]
-        else:
-            grid = make_grid([u, v], axes, self._mask, self._plane.period(axes[0], shape[1]))
-            self._grid = grid
-            self._velocity = [samples.astype(np.float64) for samples in grid.velocity]
+        points = len(shape) == 1
+        axes = (x, y) if points else axes_of((x, y), shape)
+        curvilinear = max(axis.ndim for axis in axes) > 1
+        self._grid = None if curvilinear else self._on_axes([u, v], axes, self._mask)
+        velocity = self._grid.velocity if self._grid else velocity_arrays([u, v], self._mask)
+        self._velocity = [samples.astype(np.float64) for samples in velocity]
         speed = np.hypot(*self._velocity)
         if not (speed > 0.0).any():
             raise ValueError("quiver: the velocity is zero or missing everywhere")
@@ -96,10 +91,15 @@ class Quiver(PatchCollection):
             values = real_array("C", c)
             if values.shape != shape:
                 raise ValueError(f"C has the shape {values.shape}, but U has {shape}")
-            if axes is not None:  # in the same order as the velocity
-                values = make_grid([values, values], axes, None,
-                                   self._plane.period(axes[0], shape[1])).velocity[0]
+            if not curvilinear and not points:  # in the same order as the velocity
+                values = self._on_axes([values, values], axes, None).velocity[0]
             self._values = self._c = np.asarray(values, np.float64)
+
+    def _on_axes(self, components: list[Any], axes: Any, mask: Any) -> Grid:
+        circle = self._plane.circle
+        if np.ndim(components[0]) == 1:  # points
+            return make_grid(components, axes, mask, scale="geo" if circle == 360.0 else "plain")
+        return make_grid(components, axes, mask, period_of(axes[0], circle), circle=circle)
 
     # Arrows are placed on a page that the axes' box fills, of one size and of rounded proportions:
     # neither resolution nor a layout that differs by parts of a pixel gives others. All that is
@@ -168,10 +168,10 @@ class Quiver(PatchCollection):
         x, y, u, v = thinned([x, y, *self._velocity], MOST_SAMPLES)
         velocity = self._plane.turn(x, y, u, v, self._page) if self._along_axes else [u, v]
         places = self._to_page(self._plane.forward(x.ravel(), y.ravel())).reshape(*x.shape, 2)
+        whole = over_no_gap(self._plane.space(x, y, places))
         # neighbours on either side of a map's cut are none
-        widest = 0.5 * self._page[0]
-        return resample_triangles(places[..., 0], places[..., 1], velocity, axes,
-                                  widest if self._plane.fills_outline else np.inf)
+        widest = 0.5 * self._page[0] if self._plane.fills_outline else np.inf
+        return resample_triangles(places[..., 0], places[..., 1], velocity, axes, whole, widest)
 
     def _update(self) -> None:
         """Places the arrows, unless they are placed for what the axes show."""
@@ -221,7 +221,7 @@ class Quiver(PatchCollection):
         means = []
         for path in paths:
             x, y = self._plane.inverse(path / self._page)
-            if self._grid is not None:
+            if self._grid is not None and self._c.ndim == 2:
                 values = interpolate(self._grid, self._c, x, y)
             else:
                 gx, gy = self._given
@@ -344,9 +344,16 @@ def _arguments(ax: Any, args: tuple[Any, ...]) -> tuple[Any, Any, Any, Any, Any]
     c = args[-1] if len(args) in (3, 5) else None
     u, v = args[-3:-1] if c is not None else args[-2:]
     shape = np.ma.asanyarray(u).shape
-    if len(shape) != 2:
-        raise ValueError(f"U has the shape {shape}; (ny, nx) is needed")
+    if len(shape) != 2 and (len(args) < 4 or any(np.shape(a) != shape for a in args[:2])):
+        raise ValueError(f"U has the shape {shape}; (ny, nx) is needed, or that of X and Y, points,"
+                         " in the order X, Y, U, V")
     x, y = args[:2] if len(args) > 3 else (np.arange(shape[1]), np.arange(shape[0]))
+    if np.ndim(x) == 2 and mesh_rank(u, v) > mesh_rank(x, y):
+        if not mesh_rank(x, y):
+            raise ValueError("X and Y are folded, as coordinates never are, and U and V may be "
+                             "coordinates: the order is X, Y, U, V")
+        warnings.warn("U and V are those of a mesh grid, X and Y are not: the order is X, Y, U, V",
+                      stacklevel=4)
     ax.xaxis.update_units(x)  # dates, say
     ax.yaxis.update_units(y)
     x, y = ax.convert_xunits(x), ax.convert_yunits(y)
@@ -379,19 +386,9 @@ def _is_panned(ax: Any) -> bool:
 
 
 def quiver(
-    ax: Any,
-    *args: Any,
-    arrows: int = 40,
-    transform: Any = None,
-    adaptive: bool = True,
-    angles: str = "xy",
-    effort: str = "normal",
-    mask: Any = None,
-    cmap: Any = None,
-    norm: Any = None,
-    vmin: float | None = None,
-    vmax: float | None = None,
-    **kwargs: Any,
+    ax: Any, *args: Any, arrows: int = 40, transform: Any = None, adaptive: bool = True,
+    angles: str = "xy", effort: str = "normal", mask: Any = None, cmap: Any = None,
+    norm: Any = None, vmin: float | None = None, vmax: float | None = None, **kwargs: Any,
 ) -> Quiver:
     """Draws a vector field as few curved arrows: ``quiver(ax, [X, Y], U, V, [C])``.
 
@@ -401,11 +398,11 @@ def quiver(
     Parameters
     ----------
     ax : matplotlib.axes.Axes
-    X, Y : array_like, (nx,) and (ny,), or both (ny, nx); optional
+    X, Y : array_like, (nx,) and (ny,), or both of the shape of U; optional
         Coordinates, by default 0, 1, ...
-    U, V : array_like, (ny, nx)
+    U, V : array_like, (ny, nx), or (n,) of scattered points
         Components along X and Y; masked and NaN samples are missing.
-    C : array_like, (ny, nx), optional
+    C : array_like, of the shape of U, optional
         What colours show, in place of the speed.
     arrows : int
         How many are on screen.

@@ -11,7 +11,8 @@ import xarray as xr
 from ._arrows import Arrows, _choice, arrows
 from ._dataset import eastward, find_coordinates, find_pair, role_of
 from ._model import FRAMES, centred, frame_of, positions, turned
-from ._plane import _closes
+from ._grid import in_one_piece, ordered
+from ._plane import period_of
 
 
 class _Field(NamedTuple):
@@ -55,6 +56,11 @@ class DatasetFlowgrain:
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
                              f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
+        for axis in (px, py):
+            if axis.ndim == 1 and axis.dtype.kind in "iuf":
+                ordered(str(axis.name), axis.values)  # refuses by its name
+        if degrees:
+            px = px.copy(data=in_one_piece(px.values))
         others = [d for d in first.dims if d not in plane]
         if px.ndim == 2:
             px, py = px.transpose(*plane), py.transpose(*plane)
@@ -127,12 +133,12 @@ class DatasetFlowgrain:
         first, second, px, py, degrees, others = self._field(u, v, x, y, frame)
         if degrees:
             options.setdefault("scale", "geo")
-            if px.ndim == 1 and _closes(px.values, 360.0):
-                options.setdefault("period", 360.0)
+            if px.ndim == 1:
+                options.setdefault("period", period_of(px.values, 360.0))
         found = np.empty([first.sizes[d] for d in others], object)
         for index in np.ndindex(*found.shape):
-            found[index] = arrows(first[index].values, second[index].values, px.values, py.values,
-                                  **options)
+            found[index] = arrows(px.values, py.values, u=first[index].values,
+                                  v=second[index].values, **options)
         if found.size == 1:
             return found.reshape(-1)[0]
         kept = {k: c for k, c in first.coords.items() if set(c.dims) <= set(others)}

@@ -58,7 +58,7 @@ def area(corners):
 
 def image(field, flat=2):
     """An image in the plane across an axis."""
-    u, v, x, y = field
+    x, y, u, v = field
     data, sizes = model.vtkImageData(), [len(x), len(y)]
     for sequence, value in ((sizes, 1), (low := [x[0], y[0]], 0.5),
                             (step := [x[1] - x[0], y[1] - y[0]], 1.0)):
@@ -92,7 +92,7 @@ def test_an_image_has_the_arrows_of_its_arrays(field):
 def test_no_surface_hides_arrows(field):
     height = triangles(run(image(field), Arrows=5, Lift=0.01))[:, 0, 2]
     assert set(np.round(height, 9)) == {0.4, 0.6}  # 8 x 6: a diagonal of 10
-    u, v, x, y = field
+    x, y, u, v = field
     data = model.vtkRectilinearGrid()  # a layer of cells
     data.SetDimensions(len(x), len(y), 2)
     for axis, put in ((x, data.SetXCoordinates), (y, data.SetYCoordinates),
@@ -105,7 +105,7 @@ def test_no_surface_hides_arrows(field):
 
 
 def test_hidden_points_and_cells_are_avoided(field):
-    u, v, x, y = field
+    x, y, u, v = field
     hole = np.hypot(*np.meshgrid(x - 6.0, y - 1.0)) < 1.2
     middle = np.hypot(*np.meshgrid(x[:-1] - 6.0, y[:-1] - 1.0)) < 1.2
     for flags, bit, on_cells in ((hole, 2, False), (middle, 32, True)):
@@ -167,7 +167,7 @@ def test_volume(twist):
 
 
 def test_blocks_are_one_field(field):
-    u, v, x, y = field
+    x, y, u, v = field
     blocks = model.vtkMultiBlockDataSet()
     for n, part in enumerate((slice(None, 40), slice(39, None))):
         px, py = np.meshgrid(x[part], y)
@@ -244,7 +244,7 @@ SaveScreenshot({picture!r}, view, ImageResolution=[300, 200])
 def test_in_paraview(tmp_path, field):
     from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-    u, v, x, y = vortices()
+    x, y, u, v = vortices()
     for name, factor in (("one", 1.0), ("other", 2.0)):
         writer = vtkXMLImageDataWriter()
         writer.SetInputData(image((factor * u, factor * v, x, y)))

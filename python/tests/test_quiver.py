@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import flowgrain
-from conftest import vortices
+from conftest import is_land, ocean, vortices
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("agg")
@@ -64,6 +64,20 @@ def test_logarithmic_axes_begin_at_positive_coordinates(ax):
         assert rise == pytest.approx(np.full(len(rise), 0.3), rel=0.2)
 
 
+def test_axes_in_any_order(ax, field):
+    x, y, u, v = field
+    sorted_ = lines(flowgrain.quiver(ax, x, y, u, v, u, arrows=9))
+    for roll, flip in ((20, 1), (20, -1)):
+        def moved(a, roll=roll, flip=flip):
+            return np.roll(a, roll, -1)[..., ::flip]
+
+        q = flowgrain.quiver(ax, moved(x), y, moved(u), moved(v), moved(u), arrows=9)
+        assert alike(sorted_, lines(q)) and len(q.get_array()) == 9
+    x = np.where(x > 4.0, np.nan, x)
+    with pytest.raises(ValueError, match=r"x\[25\] is nan"):
+        flowgrain.quiver(ax, x, y, u, v)
+
+
 def test_uv_is_along_the_page(ax):
     ax.set_xlim(0, 1000)
     ax.set_ylim(1, 0)
@@ -76,7 +90,7 @@ def test_uv_is_along_the_page(ax):
 
 
 def test_as_many_arrows_in_any_view(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     for view in ((1, 9, -2, 4), (5, 8, 0, 3), (1.5, 2.5, -1, -0.5)):
         ax.set_xlim(view[:2])
@@ -91,7 +105,7 @@ def test_as_many_arrows_in_any_view(ax, field):
 
 
 def test_kept_arrows_stay_in_place(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15, adaptive=False)
     before = lines(q)
     width = np.ptp(q.get_paths()[0].vertices, 0)
@@ -101,7 +115,7 @@ def test_kept_arrows_stay_in_place(ax, field):
 
 
 def test_resolution_does_not_matter(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     before = lines(q)
     for options in ({"dpi": 50}, {"dpi": 217}, {"format": "pdf"}, {"format": "svg"}):
@@ -111,7 +125,7 @@ def test_resolution_does_not_matter(ax, field):
 
 def test_a_layout_of_another_resolution_keeps_arrows(field):
     """The text of axes has another size at another resolution, and so has what it leaves."""
-    u, v, x, y = field
+    x, y, u, v = field
     figure, ax = plt.subplots(layout="constrained")
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     ax.set(xlabel="x", ylabel="y", title="a field")
@@ -130,7 +144,7 @@ def test_a_layout_of_another_resolution_keeps_arrows(field):
 
 
 def test_figures_of_any_resolution_have_the_same_bits(field):
-    u, v, x, y = field
+    x, y, u, v = field
     found = []
     for dpi in (72, 100, 217, 300):
         figure, ax = plt.subplots(dpi=dpi)
@@ -144,7 +158,7 @@ def test_figures_of_any_resolution_have_the_same_bits(field):
 
 
 def test_arrows_are_told_in_points_of_the_axes(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     scale = 72.0 / ax.figure.dpi
     for path, line in zip(q.arrows.paths, lines(q)):
@@ -156,7 +170,7 @@ def test_arrows_are_told_in_points_of_the_axes(ax, field):
 
 
 def test_colours(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     bar = ax.figure.colorbar(q)
     ends = bar.vmin, bar.vmax
@@ -179,7 +193,7 @@ def test_colours(ax, field):
 def test_ends_of_colours(ax, field):
     """Those of the arrows that are placed first, of all values where there is no arrow; given ones
     are matplotlib's."""
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     color = q.to_rgba(0.3)
     ends = q.get_clim()
@@ -235,6 +249,56 @@ def test_curvilinear_and_polar(ax):
     plt.close(figure)
 
 
+@pytest.mark.parametrize("east", [180.0, 360.0])
+def test_global_curvilinear_grids_end_at_their_seam(ax, east):
+    lon, lat, land, u, v = ocean(east)
+    q = flowgrain.quiver(ax, lon, lat, u, v, arrows=40, mask=land)
+    assert len(lines(q)) == 40
+    assert not any(is_land(*line.T).any() for line in lines(q))
+    assert np.ptp(np.concatenate(lines(q))[:, 0]) > 320.0
+
+
+def test_nothing_is_drawn_over_gaps(ax):
+    """Between swaths, in a view of one of them, too; but round the pole of polar axes."""
+    across = np.append(np.linspace(-9.0, -4.0, 21), np.linspace(4.0, 9.0, 21))
+    x, y = np.meshgrid(across, np.linspace(-18.0, 18.0, 150))
+    x = x + 0.15 * y
+    q = flowgrain.quiver(ax, x, y, 8.0 + 0.0 * x, np.sin(y), arrows=30)
+    for view in ((-12, 12), (-3, 12)):
+        ax.set_xlim(view)
+        off = np.concatenate([line[:, 0] - 0.15 * line[:, 1] for line in lines(q)])
+        assert len(lines(q)) == 30 and (np.abs(off) > 3.8).all()
+    figure = plt.figure()
+    polar = figure.add_subplot(projection="polar")
+    theta, r = np.meshgrid(np.linspace(0.0, 2.0 * np.pi, 73), np.linspace(0.2, 1.0, 17))
+    theta = (theta + 0.3 * r) % (2.0 * np.pi)
+    q = flowgrain.quiver(polar, theta, r, np.ones((17, 73)), np.zeros((17, 73)), arrows=12)
+    assert any((np.abs(np.diff(line[:, 0] % (2.0 * np.pi))) > 6.0).any() for line in lines(q))
+    plt.close(figure)
+
+
+def test_points(ax):
+    x, y = np.random.default_rng(4).uniform(0.0, 1.0, (2, 900)) * [[8.0], [6.0]]
+    kept = np.hypot(x - 4.0, y - 3.0) > 1.6
+    x, y = x[kept], y[kept]
+    q = flowgrain.quiver(ax, x, y, 1.0 + np.sin(y), np.cos(0.7 * x), x, arrows=10)
+    assert len(lines(q)) == 10
+    for line in lines(q):
+        assert np.hypot(*(line - (4.0, 3.0)).T).min() > 1.2
+        middle, way = 0.5 * (line[1:] + line[:-1]), np.diff(line, axis=0)
+        there = np.stack([1.0 + np.sin(middle[:, 1]), np.cos(0.7 * middle[:, 0])], 1)
+        cosine = (way * there).sum(1) / np.hypot(*way.T) / np.hypot(*there.T)
+        assert np.median(cosine) > 0.98
+    assert np.allclose(q.get_array(), [line[:, 0].mean() for line in lines(q)], rtol=0, atol=0.4)
+    q.set_UVC(-np.cos(y), np.sin(x))
+    assert len(lines(q)) == 10
+    assert ax.dataLim.bounds == pytest.approx((x.min(), y.min(), np.ptp(x), np.ptp(y)))
+    with pytest.raises(ValueError, match="or that of X and Y"):
+        flowgrain.quiver(ax, x[1:], y, x, y)
+    with pytest.raises(ValueError, match="lie on one line"):
+        flowgrain.quiver(ax, x, x, x, y)
+
+
 def test_dates_and_pickles(ax):
     days = np.arange("2001-01-01", "2001-02-10", dtype="M8[D]")
     height = np.linspace(0.0, 5.0, 21)
@@ -249,7 +313,7 @@ def test_dates_and_pickles(ax):
 
 
 def test_key(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=15)
     for position, off in (("E", (1, 0)), ("W", (-1, 0)), ("N", (0, 1)), ("S", (0, -1))):
         key = flowgrain.quiverkey(q, 0.8, 1.05, 0.3, "0.3 m/s", labelpos=position)
@@ -268,7 +332,7 @@ def test_key(ax, field):
 def test_arrows_are_placed_once_for_a_layout(field, monkeypatch):
     from flowgrain import _quiver
 
-    u, v, x, y = field
+    x, y, u, v = field
     counted, place = [], _quiver.place
     monkeypatch.setattr(_quiver, "place", lambda *a: counted.append(a) or place(*a))
     figure, ax = plt.subplots(layout="constrained")
@@ -284,7 +348,7 @@ def test_arrows_are_placed_once_for_a_layout(field, monkeypatch):
 
 
 def test_layout_and_limits(ax, field):
-    u, v, x, y = field
+    x, y, u, v = field
     q = flowgrain.quiver(ax, x, y, u, v, arrows=5)
     assert ax.dataLim.bounds == pytest.approx((1.0, -2.0, 8.0, 6.0))
     ax.figure.tight_layout()
@@ -296,9 +360,25 @@ def test_layout_and_limits(ax, field):
     assert q not in ax.collections
 
 
+def test_swapped_arguments(ax):
+    x, y = np.meshgrid(np.linspace(-1.0, 2.0, 31), np.linspace(-1.0, 1.0, 21))
+    waves, core = (np.cos(3 * x), np.sin(4 * y + x)), (-y / (0.1 + x * x), x / (0.1 + x * x))
+    for u, v in ((-y, x), (x, -y), waves, core, (y, 0 * y), (x, y)):  # fields, in the right order
+        flowgrain.quiver(ax, x, y, u, v)
+    for u, v in (waves, (y, 0 * y)):
+        with pytest.raises(ValueError, match="the order is X, Y, U, V"):
+            flowgrain.quiver(ax, u, v, x, y)
+    with pytest.raises(ValueError, match="in the order X, Y, U, V"):
+        flowgrain.quiver(ax, *waves, x[0], y[:, 0])
+    r = 0.1 + x * x + y * y
+    with pytest.warns(UserWarning, match="the order is X, Y, U, V"):
+        flowgrain.quiver(ax, -y / r, x / r, x, y)
+
+
 @pytest.mark.parametrize("args, options, message", [
     ((np.zeros((5, 5)), np.zeros((5, 5))), {}, "zero or missing everywhere"),
     ((np.ones(5), np.ones(5)), {}, r"\(ny, nx\)"),
+    ((np.arange(5), np.arange(5), np.ones((5, 5, 5)), np.ones((5, 5, 5))), {}, r"\(ny, nx\)"),
     ((np.arange(4), np.arange(5), np.ones((5, 5)), np.ones((5, 5))), {}, "x has the shape"),
     ((np.ones((5, 5)), np.ones((5, 5)), np.ones((5, 4))), {}, "C has the shape"),
     ((np.ones((5, 5)), np.ones((5, 5))), {"arrows": 0}, "arrows is 0"),
@@ -340,6 +420,55 @@ class TestMaps:
             if radius.min() > 1.5e6:
                 assert np.ptp(radius) < 0.02 * radius.mean()
                 assert line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0] > 0.0
+
+    @pytest.mark.parametrize("first, last", [(0.0, 355.0), (100.0, 260.0), (-250.0, -80.0)])
+    def test_longitudes_of_any_half(self, first, last):
+        """Of the globe or a region; the map's own are others again."""
+        longitude, latitude = np.arange(first, last + 1.0, 5.0), np.arange(-60.0, 61.0, 5.0)
+        lon, lat = np.meshgrid(np.radians(longitude), np.radians(latitude))
+        u, v = 10.0 * np.cos(lat), 5.0 * np.sin(3.0 * lon)
+        found = []
+        for given in (longitude, (longitude + 180.0) % 360.0 - 180.0, longitude % 360.0):
+            figure = plt.figure()
+            ax = figure.add_subplot(projection=self.ccrs.PlateCarree(180.0))
+            ax.set_global()
+            q = flowgrain.quiver(ax, given, latitude, u, v, arrows=12,
+                                 transform=self.ccrs.PlateCarree())
+            found.append(lines(q))
+            plt.close(figure)
+        assert len(found[0]) == 12 and alike(found[0], found[1]) and alike(found[0], found[2])
+        east = np.concatenate(found[0])[:, 0] % 360.0  # in degrees from 180 E
+        width = (last - first) % 360.0
+        assert ((east + 180.0 - first) % 360.0 < width + 5.0).all()
+        assert np.ptp((east + 180.0 - first) % 360.0) > 0.8 * width
+
+    def test_nothing_is_drawn_between_swaths(self):
+        across = np.append(np.linspace(-9.0, -4.0, 21), np.linspace(4.0, 9.0, 21))
+        lon, lat = np.meshgrid(across, np.linspace(-18.0, 18.0, 80))
+        lon = lon + 0.15 * lat
+        figure = plt.figure()
+        ax = figure.add_subplot(projection=self.ccrs.PlateCarree(180.0))
+        ax.set_extent([-12, 12, -20, 20], ax.projection)
+        q = flowgrain.quiver(ax, (lon + 360.0) % 360.0 - 180.0, lat, 8.0 + 0.0 * lon, np.sin(lat),
+                             arrows=20, transform=self.ccrs.PlateCarree())
+        off = np.concatenate([line[:, 0] - 0.15 * line[:, 1] for line in lines(q)])
+        assert (np.abs(off) > 3.8).all() and off.min() < -5.0 and off.max() > 5.0
+        plt.close(figure)
+
+    def test_points_round_the_pole(self, polar):
+        """Stations in triangles on the sphere: nothing is torn where longitudes begin."""
+        polar.set_extent([-180, 180, 50, 90], self.ccrs.PlateCarree())
+        a, b, c = np.random.default_rng(6).normal(size=(3, 4000))
+        lon = np.degrees(np.arctan2(b, a))
+        lat = np.degrees(np.arctan2(np.abs(c), np.hypot(a, b)))
+        lon, lat = lon[lat > 40.0], lat[lat > 40.0]
+        q = flowgrain.quiver(polar, lon, lat, np.cos(np.radians(lat)), 0.0 * lat, arrows=16,
+                             transform=self.ccrs.PlateCarree())
+        assert len(lines(q)) == 16
+        for line in lines(q):
+            radius = np.hypot(*line.T)
+            assert radius.min() < 1e6 or np.ptp(radius) < 0.05 * radius.mean()
+            assert line[0, 0] * line[1, 1] - line[0, 1] * line[1, 0] > 0.0
 
     def test_flow_crosses_the_pole_and_the_cut(self, polar):
         """Arrows lie on the small circles about the axis of a rotation."""
@@ -410,6 +539,6 @@ def test_no_matplotlib_is_needed_without_pictures():
 
 
 def test_large_grids_are_drawn(ax):
-    u, v, x, y = vortices(1001, 801)
+    x, y, u, v = vortices(1001, 801)
     q = flowgrain.quiver(ax, *np.meshgrid(x, y), u, v, arrows=10)
     assert len(q.get_paths()) == 10

@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def dataset(**names):
-    u, v, x, y = vortices(33, 25)
+    x, y, u, v = vortices(33, 25)
     return xr.Dataset({names.get("u", "u"): (("y", "x"), u), names.get("v", "v"): (("y", "x"), v)},
                       {"x": x, "y": y})
 
@@ -123,6 +123,22 @@ def test_longitude_and_latitude():
     curved = xr.Dataset({"u": (("j", "i"), flat.a.values), "v": (("j", "i"), flat.b.values)},
                         {"nav_lon": (("j", "i"), lon), "nav_lat": (("j", "i"), lat)})
     assert curved.flowgrain.arrows(n=6).to_geojson()["projection"] == "+proj=longlat"
+
+
+def test_longitudes_in_another_order():
+    turned = globe().assign_coords(i=(globe().i + 180.0) % 360.0 - 180.0)
+    turned["i"].attrs = globe()["i"].attrs
+    found = turned.flowgrain.arrows(n=6)
+    expected = turned.sortby("i").flowgrain.arrows(n=6)
+    assert found.bounds.tolist() == [[-180.0, 180.0], [-80.0, 80.0]]
+    assert all(map(np.array_equal, found.paths, expected.paths))
+    east = turned.isel(i=slice(10, 26)).flowgrain.arrows(n=6)  # across the antimeridian
+    assert east.bounds.tolist() == [[100.0, 250.0], [-80.0, 80.0]]
+    with pytest.raises(ValueError, match=r"ds.sortby\('i'\)"):
+        globe().isel(i=[0, 5, 3, 9, 7, 8]).flowgrain.arrows(n=6)
+    bad = globe().assign_coords(j=np.where(globe().j < -70.0, np.nan, globe().j))
+    with pytest.raises(ValueError, match=r"j\[16\] is nan"):
+        bad.flowgrain.quiver(x="i", y="j")
 
 
 def test_map():

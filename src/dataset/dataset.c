@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 static fg_status fail_memory(const fg__dataset *dataset)
 {
@@ -42,7 +43,7 @@ fg__dimension *fg__dataset_add_dimension(fg__dataset *dataset, const char *name,
   dataset->dimensions = grown;
   fg__dimension *d = &dataset->dimensions[dataset->dimension_count++];
   *d = (fg__dimension){.file = dataset->files - 1, .length = length};
-  snprintf(d->name, sizeof d->name, "%s", name);
+  fg__utf8_take(d->name, sizeof d->name, name, strlen(name));
   return d;
 }
 
@@ -71,14 +72,16 @@ fg__variable *fg__dataset_add_variable(fg__dataset *dataset, const char *group,
                         &dataset->variable_capacity, dataset);
   if (!v)
     return NULL;
-  const size_t length = strlen(group) + strlen(name) + 1;
+  const size_t size = 2 * (strlen(group) + strlen(name)) + 1;
   v->group = (int)dataset->group_count - 1;
-  v->name = fg__allocate(length, 1);
+  v->name = fg__allocate(size, 1);
   if (!v->name) {
     fail_memory(dataset);
     return NULL;
   }
-  snprintf(v->name, length, "%s%s", group, name);
+  fg__utf8_take(v->name, size, group, strlen(group));
+  const size_t used = strlen(v->name);
+  fg__utf8_take(v->name + used, size - used, name, strlen(name));
   const char *slash = strrchr(v->name, '/');
   v->plain_name = slash && slash[1] ? slash + 1 : v->name;
   return v;
@@ -118,11 +121,10 @@ fg_status fg__variable_add_text(fg__variable *variable, const char *name,
     --length;
   }
   if (a)
-    a->text = fg__allocate(length + 1, 1);
+    a->text = fg__allocate(2 * length + 1, 1);
   if (!a || !a->text)
     return fail_memory(variable->owner);
-  memcpy(a->text, text, length);
-  a->text[length] = '\0';
+  fg__utf8_take(a->text, 2 * length + 1, text, length);
   return FG_STATUS_OK;
 }
 
@@ -230,7 +232,7 @@ bool fg__attribute_text(const fg__variable *variable, const char *attribute, cha
 {
   const fg__attribute *a = fg__attribute_find(variable, attribute);
   const bool found = a && a->text;
-  snprintf(out, size, "%s", found ? a->text : "");
+  fg__utf8_take(out, size, found ? a->text : "", found ? strlen(a->text) : 0);
   return found;
 }
 
@@ -275,5 +277,24 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size)
 {
   const fg__dataset_file *file = &variable->owner->file[variable->file];
-  return file->decoder->fetch_texts(variable, first, count, out, size);
+  char *raw = fg__allocate(size, 1);
+  fg_status status = raw ? file->decoder->fetch_texts(variable, first, count, out, size)
+                         : fg__fail_memory(variable->owner->context, "a text", size);
+  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
+    memcpy(raw, out + n * size, size);
+    fg__utf8_take(out + n * size, size, raw, size);
+  }
+  free(raw);
+  return status;
+}
+
+size_t fg__variable_record(const fg__variable *variable, size_t n)
+{
+  const fg__decoder *decoder = variable->owner->file[variable->file].decoder;
+  return decoder->record ? decoder->record(variable, n) : n;
+}
+
+bool fg__has_no_titles(const fg__variable *variable)
+{
+  return variable->owner->file[variable->file].decoder->has_no_titles;
 }

@@ -34,6 +34,7 @@ typedef struct fg__dimension {
   size_t chosen; /* the first sample that is read: 0, or the chosen one */
   bool is_chosen;
   bool unlimited;
+  bool is_nameless; /* its name is the decoder's: it may get that of a coordinate */
 } fg__dimension;
 
 typedef enum fg__type {
@@ -62,8 +63,8 @@ typedef struct fg__variable {
   fg__type type;
   int rank;                /* FG__RANK + 1 when it has more */
   int dimension[FG__RANK]; /* indices into the dataset's dimensions */
-  int element; /* 1 or 2: of a vector variable, whose last dimension (of length 2) is not
-                  counted in `rank`; 0: it is a whole variable */
+  int element; /* 1, 2 (or 3): of a vector variable, whose dimension of components is not
+                  counted in `rank`, and which may also be there as a whole: 0 */
   fg__attribute *attribute;
   size_t attributes;
   double fill;     /* of samples that were never written; NaN: there is none */
@@ -84,6 +85,11 @@ typedef struct fg__decoder {
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);
+  bool has_no_titles; /* but names and units alone */
+  /* Of a text: what sample number n of a column stands in, "line", and its number;
+   * NULL: samples are counted. */
+  const char *records;
+  size_t (*record)(const fg__variable *variable, size_t n);
 } fg__decoder;
 
 typedef struct fg__dataset_file {
@@ -119,7 +125,7 @@ struct fg__dataset {
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied; pointers are borrowed until the next of
+ * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are borrowed until the next of
  * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
  * too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
@@ -173,6 +179,12 @@ fg_status fg__variable_fetch_one(const fg__variable *variable, const size_t *ind
  * are the file's. */
 fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size);
+
+/* Whether variables of that one's file have nothing that could be a title. */
+bool fg__has_no_titles(const fg__variable *variable);
+
+/* The number of the record that has sample n of a variable. */
+size_t fg__variable_record(const fg__variable *variable, size_t n);
 
 /* packing.c. How a variable's samples are packed, and which are missing (CF conventions,
  * chapters 2.5 and 8.1). */

@@ -5,9 +5,6 @@
 /* A file's first tag begins this early, comments before it included. */
 enum { MARK_WITHIN = 4096 };
 
-/* A GRIB message follows a heading this early. */
-enum { GRIB_WITHIN = 256 };
-
 fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
 {
   static const unsigned char hdf5[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
@@ -51,13 +48,25 @@ bool fg__is_grib_start(const unsigned char *bytes, size_t size)
   return size >= 8 && memcmp(bytes, "GRIB", 4) == 0;
 }
 
+/* Edition 1 has the length in 3 bytes, edition 2 in 8, of which none has used the first
+ * two; the shortest messages have 51 bytes and 41. */
+bool fg__is_grib_message(const unsigned char *bytes, size_t size)
+{
+  if (!fg__is_grib_start(bytes, size))
+    return false;
+  if (bytes[7] == 1)
+    return (bytes[4] | bytes[5]) != 0 || bytes[6] >= 51;
+  static const unsigned char least[8] = {[7] = 41};
+  return bytes[7] == 2 && size >= 16 && (bytes[8] | bytes[9]) == 0 &&
+         memcmp(bytes + 8, least, sizeof least) >= 0;
+}
+
 bool fg__is_grib(const unsigned char *bytes, size_t size)
 {
   if (fg__is_grib_start(bytes, size))
     return true;
-  for (size_t at = 0; at + 8 <= size && at < GRIB_WITHIN; ++at)
-    if (fg__is_grib_start(bytes + at, size - at) &&
-        (bytes[at + 7] == 1 || bytes[at + 7] == 2))
+  for (size_t at = 0; at < size && at < FG__GRIB_WITHIN; ++at)
+    if (fg__is_grib_message(bytes + at, size - at))
       return true;
   return false;
 }

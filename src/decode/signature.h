@@ -20,9 +20,15 @@ fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_xml(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size);
 
-/* Whether a GRIB message begins at these bytes; and whether they are a file of such: a
- * heading of telecommunication may stand before the first. */
+/* A heading, of telecommunication or of an archive and in any code, may stand before the
+ * first GRIB message, which begins before this byte. (ecCodes has no bound, NetCDF-Java
+ * 16,000 bytes, GDAL 1,024.) */
+enum { FG__GRIB_WITHIN = 16384 };
+
+/* Whether "GRIB" stands at these bytes; whether a message begins there, by its edition
+ * and length; and whether they are a file of such. */
 bool fg__is_grib_start(const unsigned char *bytes, size_t size);
+bool fg__is_grib_message(const unsigned char *bytes, size_t size);
 bool fg__is_grib(const unsigned char *bytes, size_t size);
 
 #endif

@@ -75,9 +75,26 @@ fg_status fg__source_open(fg__source *out, fg_context *context, const char *path
   return status;
 }
 
-void fg__source_close(fg__source *source)
+fg_status fg__source_check(fg_context *context, fg_status status, const char *path,
+                           size_t size)
 {
-  if (source->bytes && source->on_disk)
+  struct stat about;
+  if (status == FG_STATUS_MEMORY || status == FG_STATUS_STOPPED ||
+      stat(path, &about) != 0 || (uintmax_t)about.st_size >= size)
+    return status;
+  if (status != FG_STATUS_OK)
+    fg_context_clear(context);
+  return fg__fail(context, FG_STATUS_FILE_ACCESS,
+                  "%s: became shorter while it was read (%zu bytes, then %jd)", path,
+                  size, (intmax_t)about.st_size);
+}
+
+fg_status fg__source_close(fg__source *source, fg_context *context, fg_status status)
+{
+  if (source->bytes && source->on_disk) {
     munmap((void *)(uintptr_t)source->bytes, source->size);
+    status = fg__source_check(context, status, source->path, source->size);
+  }
   source->bytes = NULL;
+  return status;
 }

@@ -25,7 +25,16 @@ typedef struct fg__source {
 /* Maps a regular file that can be read and is not empty; or gives the context's bytes, as
  * no file, for "-" (fg_context_set_input). FILE_ACCESS, FILE_FORMAT (empty). */
 fg_status fg__source_open(fg__source *out, fg_context *context, const char *path);
-void fg__source_close(fg__source *source);
+
+/* Ends a source. Returns `status`, that of its reading, or fg__source_check. */
+fg_status fg__source_close(fg__source *source, fg_context *context, fg_status status);
+
+/* Returns `status`, that of reading a file of `size` bytes; or FILE_ACCESS where it has
+ * become shorter since: what was read beyond its end then is zeros, and what was found
+ * wrong with it may be so. (Reading mapped bytes beyond the page of its end is a SIGBUS.)
+ */
+fg_status fg__source_check(fg_context *context, fg_status status, const char *path,
+                           size_t size);
 
 /* How an input is called in messages. */
 const char *fg__input_name(const fg_context *context, const char *input);

@@ -1,6 +1,7 @@
 #include "field/slab.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "field/fingerprint.h"
 #include "field/refused.h"
 
@@ -352,7 +353,7 @@ static fg_status copy_words(fg_field *field, fg_context *context,
     const char *text = *fg__arrays_word(&given, n);
     if (!text)
       text = otherwise[n];
-    char *copy = fg__copy_text(text);
+    char *copy = fg__utf8_copy(text);
     if (text && !copy)
       return fg__fail_memory(context, "the field's words", strlen(text) + 1);
     *fg__arrays_word(&field->contents, n) = copy;
@@ -364,7 +365,7 @@ static fg_status copy_words(fg_field *field, fg_context *context,
 
 fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title)
 {
-  char *copy = fg__copy_text(title);
+  char *copy = fg__utf8_copy(title);
   if (!copy)
     return fg__fail_memory(context, "the field's words", 0);
   for (int i = 0; i < field->words; ++i)

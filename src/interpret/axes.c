@@ -179,7 +179,16 @@ fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k)
     axis->coordinate[i] = (double)i;
   axis->quantity = FG__QUANTITY_UNKNOWN;
   axis->units[0] = '\0';
+  const fg__dimension *d = &data->dimensions[axis->dimension];
   snprintf(axis->name, sizeof axis->name, "%.*s", FG__TEXT_BYTES - 1,
-           data->dimensions[axis->dimension].name);
+           d->is_nameless ? (const char *const[]){"x", "y", "z"}[k] : d->name);
   return FG_STATUS_OK;
+}
+
+void fg__call_geographic(fg__grid_axis *axis, int k)
+{
+  if (axis->quantity != FG__QUANTITY_UNKNOWN || axis->units[0])
+    return;
+  snprintf(axis->name, sizeof axis->name, "%s", k == 0 ? "longitude" : "latitude");
+  snprintf(axis->units, sizeof axis->units, "%s", k == 0 ? "°E" : "°N");
 }

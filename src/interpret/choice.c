@@ -1,7 +1,9 @@
 /* Selects the pair to read: the one that the options name, or the only one of best
  * rank. */
 #include "base/memory.h"
+#include "base/names.h"
 #include "interpret/interpret.h"
+#include "terms/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,32 +24,46 @@ static int write_names(char *out, size_t size, const fg__pair *pair, bool volume
                   volume ? pair->component[2]->name : "");
 }
 
-/* Lists pairs as "u,v; u10,v10", as many as fit: all, or those whose dimension is not
- * 0. */
-static void list_pairs(const candidates *all, const int *dimension, char *out,
-                       size_t size)
+/* Lists pairs as "u,v; u10,v10": all, or those whose dimension is not 0. */
+static fg__names list_pairs(const candidates *all, const int *dimension)
 {
-  size_t n = 0;
-  out[0] = '\0';
+  char pair[3 * FG__NAME_BYTES];
+  fg__names names = {0};
   for (size_t i = 0; i < all->count; ++i) {
     if (dimension && dimension[i] == 0)
       continue;
-    const char *between = n > 0 ? "; " : "";
-    if (n + strlen(between) >= size)
-      return;
-    strcpy(out + n, between);
-    const size_t start = n + strlen(between);
-    const int written = write_names(out + start, size - start, &all->pair[i],
-                                    dimension && dimension[i] == 3);
-    if (written < 0 || (size_t)written >= size - start) {
-      out[n] = '\0';
-      return;
-    }
-    n = start + (size_t)written;
+    write_names(pair, sizeof pair, &all->pair[i], dimension && dimension[i] == 3);
+    fg__names_add(&names, "; ", "%s", pair);
   }
+  return names;
 }
 
-/* A name may begin with the slash of the root group. */
+/* Whether a text is a column's name, in any letters, perhaps with its units behind it, as
+ * in "Wind Speed (kt)". */
+static bool is_column(const char *name, const char *text)
+{
+  char one[FG__TEXT_BYTES], other[FG__TEXT_BYTES], word[FG__TEXT_BYTES];
+  const size_t length = strcspn(text, "([");
+  fg__plain_name(one, sizeof one, name);
+  fg__plain_name(other, sizeof other, text);
+  if (one[0] && strcmp(one, other) == 0)
+    return true;
+  snprintf(word, sizeof word, "%.*s", (int)length, text);
+  fg__plain_name(other, sizeof other, word);
+  return one[0] && strcmp(one, other) == 0;
+}
+
+/* The variable of a number from 1, as columns are counted; NULL: it is none. */
+static const fg__variable *find_numbered(const fg__dataset *data, const char *text)
+{
+  char *end;
+  const unsigned long number = strtoul(text, &end, 10);
+  return fg__is_digit(*text) && !*end && number >= 1 && number <= data->variable_count
+             ? &data->variables[number - 1]
+             : NULL;
+}
+
+/* A name may begin with the slash of the root group, and be one of a column. */
 static const fg__variable *find_named(const fg__dataset *data, const char *name,
                                       int preferred)
 {
@@ -58,7 +74,11 @@ static const fg__variable *find_named(const fg__dataset *data, const char *name,
         (strcmp(v->name, name) == 0 || strcmp(v->plain_name, name) == 0))
       return v;
   }
-  return fg__dataset_find(data, name);
+  const fg__variable *found = fg__dataset_find(data, name);
+  for (size_t i = 0; i < data->variable_count && !found; ++i)
+    if (is_column(data->variables[i].plain_name, name))
+      found = &data->variables[i];
+  return found ? found : find_numbered(data, name);
 }
 
 /* The first direction among the variables of two dimensions or more; NULL: none. */
@@ -76,45 +96,47 @@ static const fg__variable *find_direction(const fg__dataset *data)
 static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
                                    const char *name)
 {
-  char list[1024];
+  const fg__names list = list_pairs(all, NULL);
   fg_status status =
       fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
                data->file[data->component_files - 1].path, name);
-  list_pairs(all, NULL, list, sizeof list);
-  if (list[0])
-    fg__hint(data->context, "pairs in it: %s", list);
+  if (list.count > 0)
+    fg__hint(data->context, "pairs in it: %s", list.text);
   return status;
 }
 
 static fg_status fail_names(const fg__dataset *data, const candidates *all,
                             const char *vars)
 {
-  char list[1024];
+  const fg__names list = list_pairs(all, NULL);
   fg__fail(data->context, FG_STATUS_ARGUMENT,
            strchr(vars, ',')
-               ? "%s: '%s' is not two or three names with commas between"
+               ? "%s: '%s' is not two or three names with commas between, nor four or six "
+                 "with the coordinates first"
                : "%s: '%s' is one variable, and a velocity has two or three components",
            data->file[0].path, vars);
-  list_pairs(all, NULL, list, sizeof list);
-  if (list[0])
-    fg__hint(data->context, "pairs in it: %s", list);
+  if (list.count > 0)
+    fg__hint(data->context, "pairs in it: %s", list.text);
   else
     fg__hint(data->context, "name two variables: --vars U,V; or three: --vars U,V,W");
   return FG_STATUS_ARGUMENT;
 }
 
-/* Splits "u,v" or "u,v,w"; returns the number of names, 0 for anything else. */
-static int split_names(char name[3][FG__NAME_BYTES], const char *vars)
+enum { MOST_NAMED = 6 };
+
+/* Splits "u,v" or "u,v,w", or "x,y,u,v" or "x,y,z,u,v,w"; returns the number of names, 0
+ * for anything else. */
+static int split_names(char name[MOST_NAMED][FG__NAME_BYTES], const char *vars)
 {
   int count = 0;
-  while (count < 3) {
+  while (count < MOST_NAMED) {
     const size_t length = strcspn(vars, ",");
     if (length == 0 || length >= FG__NAME_BYTES)
       return 0;
     memcpy(name[count], vars, length);
     name[count++][length] = '\0';
     if (!vars[length])
-      return count > 1 ? count : 0;
+      return count > 1 && count != 5 ? count : 0;
     vars += length + 1;
   }
   return 0;
@@ -142,31 +164,47 @@ static fg_status check_order(const fg__dataset *data, const candidates *all,
   return FG_STATUS_OK;
 }
 
+/* The first element of the vector variable that is called so; NULL: none. */
+static const fg__variable *find_vector(const fg__dataset *data, const char *name)
+{
+  const fg__variable *v = find_named(data, name, 0);
+  const fg__variable *end = data->variables + data->variable_count;
+  if (v && v->element == 0 && v + 1 < end && strcmp(v->name, v[1].name) == 0)
+    ++v; /* which is also there as a whole */
+  return v && v->element == 1 ? v : NULL;
+}
+
 static fg_status choose_named(fg__pair *out, const fg__dataset *data,
                               const candidates *all, const char *vars)
 {
-  char name[3][FG__NAME_BYTES];
-  const fg__variable *vector = find_named(data, vars, 0);
-  if (vector && vector->element == 1) {
-    *out = (fg__pair){.component = {vector, vector + 1}, .found_by = "request"};
+  char name[MOST_NAMED][FG__NAME_BYTES];
+  const fg__variable *vector = find_vector(data, vars);
+  if (vector) {
+    *out = (fg__pair){.component = {vector, vector + 1, fg__third_element(vector)},
+                      .found_by = "request"};
     return FG_STATUS_OK;
   }
-  const int count = split_names(name, vars);
-  if (count == 0)
+  const int names = split_names(name, vars), places = names > 3 ? names / 2 : 0;
+  const int count = names - places;
+  if (names == 0)
     return fail_names(data, all, vars);
   *out = (fg__pair){.found_by = "request", .volume = count == 3};
-  for (int k = 0; k < count; ++k) {
-    out->component[k] = find_named(data, name[k], k > 0 ? data->component_files - 1 : 0);
-    if (!out->component[k])
+  for (int k = 0; k < names; ++k) {
+    const fg__variable *v =
+        find_named(data, name[k], k > places ? data->component_files - 1 : 0);
+    if (!v)
       return fail_unknown_name(data, all, name[k]);
+    if (k < places)
+      out->position[k] = v;
+    else
+      out->component[k - places] = v;
   }
   for (int k = 0; k < count; ++k)
     if (out->component[k] == out->component[(k + 1) % count])
       return fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
-                      data->file[0].path, count == 2 ? "both" : "two", name[k]);
-  if (count == 2)
-    fg__settle_polar(out);
-  return check_order(data, all, out);
+                      data->file[0].path, count == 2 ? "both" : "two", name[places + k]);
+  const fg_status status = count == 2 ? fg__settle_polar(out, data) : FG_STATUS_OK;
+  return status == FG_STATUS_OK ? check_order(data, all, out) : status;
 }
 
 static fg_status fail_unusable(const fg__dataset *data, const fg__pair *pair,
@@ -193,35 +231,64 @@ static fg_status fail_flat(const fg__dataset *data, const fg__pair *pair)
   return FG_STATUS_UNSUPPORTED;
 }
 
-/* Lists variables as ": u, lat, lon", possible components first, as many as fit; "":
- * none. */
-static void list_variables(char *out, size_t size, const fg__dataset *data)
+/* Coordinates that are named are those of points, or of the axes. */
+static fg_status check_places(const fg__dataset *data, const fg__pair *pair,
+                              const fg__grid *grid)
 {
-  size_t used = 0;
-  out[0] = '\0';
+  bool used = grid->unstructured != NULL;
+  if (!pair->position[0] || used)
+    return FG_STATUS_OK;
+  used = true;
+  for (int k = 0; k < 2; ++k)
+    used =
+        used && grid->axis[k].coordinate &&
+        pair->position[k] == fg__grid_axis_coordinate(data, grid, pair->component[0], k);
+  if (used)
+    return FG_STATUS_OK;
+  return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                  "%s: '%.120s' and '%.120s' are no coordinates of '%.120s'",
+                  data->file[0].path, pair->position[0]->name, pair->position[1]->name,
+                  pair->component[0]->name);
+}
+
+/* Lists variables as "u, lat, lon", possible components first. */
+static fg__names list_variables(const fg__dataset *data)
+{
+  fg__names names = {0};
   for (int turn = 0; turn < 2; ++turn)
     for (size_t i = 0; i < data->variable_count; ++i) {
       const fg__variable *v = &data->variables[i];
       const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
-      if (is_field == (turn == 1) || v->element == 2 || used + strlen(v->name) + 8 > size)
-        continue;
-      used +=
-          (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", v->name);
+      if (is_field == (turn == 0) && v->element < 2)
+        fg__names_add(&names, ", ", "%s", v->name);
     }
+  return names;
+}
+
+static bool all_are_columns(const fg__dataset *data)
+{
+  for (size_t i = 0; i < data->variable_count; ++i)
+    if (data->variables[i].rank != 1 ||
+        !data->dimensions[data->variables[i].dimension[0]].is_nameless)
+      return false;
+  return true;
 }
 
 static fg_status fail_no_vectors(const fg__dataset *data)
 {
-  char names[1024];
-  list_variables(names, sizeof names, data);
+  const fg__names names = list_variables(data);
   fg_status status =
       fg__fail(data->context, FG_STATUS_UNSUPPORTED,
-               "%s: no vectors found among its %zu variable%s%s", data->file[0].path,
-               data->variable_count, data->variable_count == 1 ? "" : "s", names);
+               "%s: no vectors found among its %zu variable%s%s%s", data->file[0].path,
+               data->variable_count, data->variable_count == 1 ? "" : "s",
+               names.count > 0 ? ": " : "", names.text);
   const fg__variable *direction = find_direction(data);
   if (direction)
     fg__hint(data->context, "name the speed with its direction: --vars SPEED,%s",
              direction->name);
+  else if (all_are_columns(data))
+    fg__hint(data->context, "name coordinates and components, or their numbers from 1: "
+                            "--vars X,Y,U,V or --vars 1,2,3,4");
   else if (data->component_files == 1)
     fg__hint(data->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
@@ -233,12 +300,11 @@ static fg_status fail_no_vectors(const fg__dataset *data)
 static fg_status fail_ambiguous(const fg__dataset *data, const candidates *all,
                                 const int *usable, int count)
 {
-  char list[1024];
-  list_pairs(all, usable, list, sizeof list);
+  const fg__names list = list_pairs(all, usable);
   fg_status status =
       fg__fail(data->context, FG_STATUS_ARGUMENT,
                "%s: holds %d vectors, and it is not clear which is meant: %s",
-               data->file[0].path, count, list);
+               data->file[0].path, count, list.text);
   fg__hint(data->context, "choose one with --vars U,V");
   return status;
 }
@@ -290,6 +356,8 @@ fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *d
     status = choose_named(pair, data, &all, options->vars);
     if (status == FG_STATUS_OK)
       status = fg__grid_find(grid, data, pair, options);
+    if (status == FG_STATUS_OK)
+      status = check_places(data, pair, grid);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(data, pair, grid);
     else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3)

@@ -1,6 +1,7 @@
 /* Single samples of dimensions, as of one that is neither time nor level: one member of
  * an ensemble. */
 #include "base/memory.h"
+#include "base/names.h"
 #include "flowgrain/inventory.h"
 #include "interpret/interpret.h"
 
@@ -149,27 +150,15 @@ static fg_status choose_sample(fg__dataset *data, int dimension, const char *whi
   return status;
 }
 
-/* Lists dimensions as "time (12), number (3)", as many as fit. */
-static void list_dimensions(char *out, size_t size, const fg__dataset *data)
-{
-  size_t used = 0;
-  out[0] = '\0';
-  for (size_t i = 0; i < data->dimension_count; ++i) {
-    const fg__dimension *d = &data->dimensions[i];
-    if (used + strlen(d->name) + 32 < size)
-      used += (size_t)snprintf(out + used, size - used, "%s%s (%zu)", used ? ", " : "",
-                               d->name, d->length);
-  }
-}
-
 /* The same of all dimensions of a name: each group and file may have its own, and one of
  * a single sample beside them has that for all. */
 static fg_status choose_named(fg__dataset *data, const char *name, const char *which)
 {
-  char known[1024];
+  fg__names known = {0};
   bool found = false, is_given = false;
   for (size_t i = 0; i < data->dimension_count; ++i) {
     const fg__dimension *d = &data->dimensions[i];
+    fg__names_add(&known, ", ", "%s (%zu)", d->name, d->length);
     if (strcmp(d->name, name) != 0)
       continue;
     if (d->is_chosen) {
@@ -189,11 +178,10 @@ static fg_status choose_named(fg__dataset *data, const char *name, const char *w
     return fg__fail(data->context, FG_STATUS_ARGUMENT,
                     "%s: of '%.100s' two samples are chosen, and one is read",
                     data->file[0].path, name);
-  list_dimensions(known, sizeof known, data);
   fg__fail(data->context, FG_STATUS_ARGUMENT,
            "%s: has no dimension '%.100s' to choose by", data->file[0].path, name);
-  if (known[0])
-    fg__hint(data->context, "dimensions in it: %s", known);
+  if (known.count > 0)
+    fg__hint(data->context, "dimensions in it: %s", known.text);
   return FG_STATUS_ARGUMENT;
 }
 

@@ -383,6 +383,8 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
   if ((wanted == FG_SCALE_AUTO || wanted == FG_SCALE_GEO || pair->polar.sense != 0) &&
       is_usable(grid))
     check_directions(grid, data, pair, options->frame);
+  for (int k = 0; k < 2 && grid->scale == FG_SCALE_GEO; ++k)
+    fg__call_geographic(&grid->axis[k], k);
   if (grid->scale == FG_SCALE_GEO &&
       (x->quantity == FG__QUANTITY_LENGTH || y->quantity == FG__QUANTITY_LENGTH))
     fg__set_unusable(grid->unusable,
@@ -407,6 +409,7 @@ static fg_status find_on_axes(fg__grid *grid, const fg__dataset *data,
     return status;
   set_positions(grid, u);
   grid->samples = grid->axis[0].size * grid->axis[1].size;
+  fg__check_nameless(grid, data, u);
   fg__quantity velocity;
   check_units(grid, pair, &velocity);
   if (is_usable(grid))
@@ -415,6 +418,8 @@ static fg_status find_on_axes(fg__grid *grid, const fg__dataset *data,
     return status;
   if (pair->component[2])
     status = fg__volume_find(grid, data, pair);
+  if (grid->dimension == 2)
+    fg__nameless_time(grid, data, u);
   grid->off_axes = false; /* the third component alone may be staggered */
   return status;
 }

@@ -35,11 +35,17 @@ fg_status fg__dimension_labels(fg_axis_value **out, char **text, const fg__datas
 typedef struct fg__pair {
   const fg__variable *component[3]; /* the third NULL when there is none */
   bool volume;                      /* the options name all three */
+  const fg__variable *position[3];  /* that the options name; or NULL */
   fg__polar polar;                  /* they are a speed and a direction */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* units of a speed, unlike a stress or a flux */
 } fg__pair;
+
+/* nameless.c. Finds longitudes and latitudes, and names what has no names in the file
+ * that was added last: the dimensions of arrays by the coordinates whose lengths fit, and
+ * four or six columns, x, y(, z), u, v(, w). MEMORY. */
+fg_status fg__settle_names(fg__dataset *data);
 
 /* chosen.c. Refuses choices by a dimension that neither component has. ARGUMENT. */
 fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
@@ -47,13 +53,21 @@ fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
 /* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data);
 
+/* The name of a variable, or what its place calls it where it has a number only. */
+const char *fg__called(const fg__variable *v);
+
 /* What a variable is called and says of itself; texts are borrowed. */
 fg__term fg__term_of(const fg__variable *v);
 
-/* polar.c. Makes a named pair of a length and its direction, in either order, polar. */
-void fg__settle_polar(fg__pair *pair);
+/* polar.c. Makes a named pair of a length and its direction, in either order, polar.
+ * ARGUMENT (a speed beside what is no direction). */
+fg_status fg__settle_polar(fg__pair *pair, const fg__dataset *data);
 
-/* The name of a component; NULL: a speed and a direction become components without. */
+/* The third element of a vector variable whose first is v; NULL: it has two. */
+const fg__variable *fg__third_element(const fg__variable *v);
+
+/* The name of a component; NULL: a speed and a direction, and the elements of a vector
+ * variable, become components without. */
 const char *fg__component_name(const fg__pair *pair, int k);
 
 /* What a polar pair is, and which rule says so. */
@@ -124,10 +138,16 @@ typedef struct fg__grid {
   char projection[2 * FG__TEXT_BYTES]; /* PROJ string of scale MAP; "": not known */
   bool points_east; /* components along east and north, not along the axes */
   size_t samples;   /* product of the axes' sizes */
+  const fg__variable
+      *hidden; /* true where a sample is not to be used (numpy.ma), or NULL */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
   char hint[FG__TEXT_BYTES];
   char doubts[FG__REASON_BYTES]; /* lines: what is unsure of all this */
 } fg__grid;
+
+/* nameless.c. Makes a vector unusable whose dimensions have got no names, though the file
+ * has coordinates; and finds an array of booleans called mask, as numpy.ma has them. */
+void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
 
 /* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
  * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
@@ -158,6 +178,10 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
                                              const fg__grid *grid, const fg__variable *v,
                                              int k);
 
+/* axes.c. An axis that says nothing of itself is longitude or latitude where the options
+ * say so. */
+void fg__call_geographic(fg__grid_axis *axis, int k);
+
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);
 
@@ -178,6 +202,9 @@ fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset
 fg_status fg__plane_contradicts(bool *out, const fg__grid *grid, const fg__dataset *data,
                                 const fg__variable *variable,
                                 const fg__variable *const coordinate[2]);
+
+/* nameless.c. A first dimension that neither has a name nor makes a volume is time. */
+void fg__nameless_time(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
 
 /* Whether two dimensions are one, or have the same name and length in two files. */
 bool fg__alike_dimension(const fg__dataset *data, int a, int b);
@@ -283,6 +310,10 @@ fg_status fg__date_values(fg_axis_value **out, char **text, const fg__variable *
  * NULL where there is no coordinate, or too many values to choose from. */
 fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__dataset *data,
                                const fg__variable *coordinate, size_t count);
+
+/* The same of a vector's times or levels, which may be those of a table's rows. */
+fg_status fg__index_values(fg_axis_value **out, char **text, const fg__dataset *data,
+                           const fg__grid *grid, bool of_time);
 
 /* The texts of a picture's caption. */
 typedef struct fg__vector_words {

@@ -1,5 +1,6 @@
 #include "interpret/inventory.h"
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -62,6 +63,15 @@ fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
+/* Copies a text to `next`; returns where the one after it goes. */
+static char *copy_word(const char **out, char *next, const char *text)
+{
+  const size_t length = strlen(text);
+  fg__utf8_take(next, 2 * length + 1, text, length);
+  *out = next;
+  return next + strlen(next) + 1;
+}
+
 /* Copies values with their texts, all in one allocation; NULL gives NULL. False: no
  * memory. */
 static bool copy_values(value_list *out, const fg_axis_value *values, int count)
@@ -70,17 +80,16 @@ static bool copy_values(value_list *out, const fg_axis_value *values, int count)
     return true;
   size_t bytes = 0;
   for (int n = 0; n < count; ++n)
-    bytes += strlen(values[n].units) + strlen(values[n].words) + 2;
+    bytes += 2 * (strlen(values[n].units) + strlen(values[n].words) + 1);
   out->value = fg__allocate((size_t)count, sizeof *out->value);
   out->text = fg__allocate(bytes, 1);
   if (!out->value || !out->text)
     return false;
   char *next = out->text;
   for (int n = 0; n < count; ++n) {
-    out->value[n] = (fg_axis_value){.value = values[n].value, .units = next};
-    next = stpcpy(next, values[n].units) + 1;
-    out->value[n].words = next;
-    next = stpcpy(next, values[n].words) + 1;
+    out->value[n].value = values[n].value;
+    next = copy_word(&out->value[n].units, next, values[n].units);
+    next = copy_word(&out->value[n].words, next, values[n].words);
   }
   return true;
 }
@@ -115,7 +124,7 @@ static bool copy_texts(entry *e)
     const char **place = fg__vector_text(&e->vector, n);
     if (!*place && n < ALWAYS_THERE)
       *place = "";
-    e->text[n] = fg__copy_text(*place);
+    e->text[n] = fg__utf8_copy(*place);
     copied = copied && (e->text[n] || !*place);
     *place = e->text[n];
   }

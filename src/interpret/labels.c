@@ -1,7 +1,6 @@
 /* Names that a file has for the samples of a dimension: strings, or rows of characters.
  */
 #include "base/memory.h"
-#include "file/utf8.h"
 #include "interpret/interpret.h"
 
 #include <math.h>
@@ -42,9 +41,6 @@ static fg_status read_label(char out[FG__TEXT_BYTES], const fg__variable *v, siz
     return status;
   for (size_t n = strlen(out); n > 0 && out[n - 1] == ' '; --n)
     out[n - 1] = '\0';
-  if (!fg__utf8_is_valid(out)) /* in another encoding, or cut */
-    for (char *c = out; *c; ++c)
-      *c = (unsigned char)*c < 0x80 ? *c : '?';
   return FG_STATUS_OK;
 }
 

@@ -2,9 +2,11 @@
  * may be, and vector variables. */
 #include "base/memory.h"
 #include "interpret/unstructured/unstructured.h"
+#include "terms/coordinates.h"
 #include "terms/vectors.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const char *text_of(const fg__variable *v, const char *attribute)
 {
@@ -12,13 +14,31 @@ static const char *text_of(const fg__variable *v, const char *attribute)
   return a ? a->text : NULL;
 }
 
+/* Unlike a column that is called by its number, and named by its place (nameless.c). */
+static bool has_own_name(const fg__variable *v)
+{
+  return strstr(v->name, v->plain_name) != NULL;
+}
+
+const char *fg__called(const fg__variable *v)
+{
+  return has_own_name(v) ? v->name : v->plain_name;
+}
+
 fg__term fg__term_of(const fg__variable *v)
 {
-  return (fg__term){.name = v->name,
+  return (fg__term){.name = fg__called(v),
                     .standard_name = text_of(v, "standard_name"),
                     .long_name = text_of(v, "long_name"),
                     .units = text_of(v, "units"),
                     .file = v->file};
+}
+
+const fg__variable *fg__third_element(const fg__variable *v)
+{
+  const fg__dataset *data = v->owner;
+  return v + 2 < data->variables + data->variable_count && v[2].element == 3 ? v + 2
+                                                                             : NULL;
 }
 
 typedef struct candidates {
@@ -86,9 +106,23 @@ static bool append(pair_list *pairs, const fg__pair *pair)
   return true;
 }
 
-static bool add_found(pair_list *pairs, const candidates *all, bool apart)
+/* Whether the file has coordinates along two axes of space and none along the third. */
+static bool is_plane_across(const fg__dataset *data, int missing)
 {
-  const fg__vector_rules rules = {.apart = apart};
+  bool found[3] = {false, false, false};
+  for (size_t i = 0; i < data->variable_count; ++i)
+    for (int k = 0; k < 3; ++k)
+      found[k] = found[k] || fg__column_fits(data->variables[i].plain_name,
+                                             (fg__column_use)(FG__COLUMN_X + k)) > 0;
+  return found[0] == (missing != 0) && found[1] == (missing != 1) && found[2];
+}
+
+static bool add_found(pair_list *pairs, const fg__dataset *data, const candidates *all,
+                      bool apart)
+{
+  fg__vector_rules rules = {.apart = apart, .at_points = true};
+  for (size_t i = 0; i < all->count; ++i)
+    rules.at_points = rules.at_points && all->variable[i]->rank == 1;
   fg__vector *found;
   size_t count;
   bool memory = fg__vectors_find(&found, &count, all->term, all->count, &rules);
@@ -98,29 +132,46 @@ static bool add_found(pair_list *pairs, const candidates *all, bool apart)
                      .found_by = v->found_by,
                      .rank = v->rank,
                      .is_velocity = v->is_velocity};
+    int components = 0;
+    if (v->component[1] >= 0 && !has_own_name(all->variable[v->component[1]]))
+      pair.found_by = "columns";
     for (int k = 0; k < 3; ++k)
-      pair.component[k] = v->component[k] < 0 ? NULL : all->variable[v->component[k]];
-    memory = v->is_upright || append(pairs, &pair);
+      if (v->component[k] >= 0)
+        pair.component[components++] = all->variable[v->component[k]];
+    memory = (v->is_upright && !is_plane_across(data, v->component[0] < 0 ? 0 : 1)) ||
+             append(pairs, &pair);
   }
   free(found);
   return memory;
 }
 
-/* Vector variables, which decoders list as two in a row. */
-static bool add_vectors(pair_list *pairs, const fg__dataset *data)
+/* Whether an array is also there as a whole, so that its components may be something
+ * else. */
+static bool is_also_whole(const fg__dataset *data, size_t i)
+{
+  return i > 0 && data->variables[i - 1].element == 0 &&
+         strcmp(data->variables[i - 1].name, data->variables[i].name) == 0;
+}
+
+/* Vector variables, which decoders list as two or three in a row; `all`: also those that
+ * may be something else. */
+static bool add_vectors(pair_list *pairs, const fg__dataset *data, bool all)
 {
   for (size_t i = 0; i + 1 < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     const char *units = text_of(v, "units");
-    if (v->element != 1 || v->file >= data->component_files)
+    if (v->element != 1 || v->file >= data->component_files ||
+        (!all && is_also_whole(data, i)))
       continue;
     fg__unit unit = {.quantity = FG__QUANTITY_SPEED};
     if (units && units[0])
       fg__unit_read(&unit, units);
     const bool velocity = unit.quantity == FG__QUANTITY_SPEED;
-    const fg__pair pair = {.component = {v, v + 1},
-                           .found_by = "its last dimension",
-                           .rank = velocity ? FG__BY_VELOCITY_NAMES : FG__BY_OTHER_NAMES,
+    const fg__pair pair = {.component = {v, v + 1, fg__third_element(v)},
+                           .found_by = "shape",
+                           .rank = is_also_whole(data, i) ? FG__BY_SHAPE
+                                   : velocity             ? FG__BY_VELOCITY_NAMES
+                                                          : FG__BY_OTHER_NAMES,
                            .is_velocity = velocity};
     if (!append(pairs, &pair))
       return false;
@@ -141,10 +192,10 @@ fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data)
   candidates all = {0};
   pair_list pairs = {0};
   const bool two_files = data->component_files > 1;
-  bool memory = list_candidates(&all, data) && add_found(&pairs, &all, two_files);
+  bool memory = list_candidates(&all, data) && add_found(&pairs, data, &all, two_files);
   if (pairs.count == 0 && two_files) /* the second may have only positions or a mask */
-    memory = memory && add_found(&pairs, &all, false);
-  memory = memory && add_vectors(&pairs, data);
+    memory = memory && add_found(&pairs, data, &all, false);
+  memory = memory && add_vectors(&pairs, data, pairs.count == 0);
   free(all.term);
   free(all.variable);
   if (!memory) {

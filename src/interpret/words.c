@@ -1,6 +1,6 @@
 /* Texts of captions: the vector's title, its time and its level. */
 #include "base/memory.h"
-#include "interpret/interpret.h"
+#include "interpret/unstructured/unstructured.h"
 #include "terms/dates.h"
 
 #include <ctype.h>
@@ -153,7 +153,8 @@ void fg__vector_title(const fg__pair *pair, int components, char *out, size_t si
     if (join_shared(of_u, of_v, out, size))
       return;
   }
-  if (fg__attribute_text(fg__group_of(pair->component[0]), "title", out, size))
+  if (fg__attribute_text(fg__group_of(pair->component[0]), "title", out, size) ||
+      fg__has_no_titles(pair->component[0]))
     return;
   if (components == 3)
     snprintf(out, size, "%.80s, %.80s, %.80s", pair->component[0]->plain_name,
@@ -194,6 +195,8 @@ static void write_words(const fg__variable *coordinate, double value, char *out,
   fg__attribute_text(coordinate, "units", units, sizeof units);
   fg__attribute_text(coordinate, "calendar", calendar, sizeof calendar);
   const fg__quantity quantity = fg__units_read(units, label, sizeof label);
+  if (!fg__is_number(coordinate) && fg__date_of_seconds(value, out, size))
+    return; /* a column of dates */
   if ((quantity == FG__QUANTITY_DATE &&
        fg__date_of_number(value, units, calendar, out, size)) ||
       fg__duration(value, units, out, size))
@@ -246,9 +249,10 @@ enum { MOST_VALUES = 1000000 };
 static bool write_texts(char **text, size_t *starts, const fg__variable *coordinate,
                         const double *number, size_t count)
 {
-  char units[FG__TEXT_BYTES], words[FG__TEXT_BYTES];
+  char units[FG__TEXT_BYTES] = "", words[FG__TEXT_BYTES];
   size_t used = 0, capacity = 0;
-  fg__attribute_text(coordinate, "units", units, sizeof units);
+  if (fg__is_number(coordinate))
+    fg__attribute_text(coordinate, "units", units, sizeof units);
   fg__units_read(units, words, sizeof words);
   for (size_t n = 0; n <= count; ++n) {
     const size_t length = strlen(words) + 1;
@@ -263,21 +267,46 @@ static bool write_texts(char **text, size_t *starts, const fg__variable *coordin
   return true;
 }
 
-/* `number` and `starts` have room for all numbers and for the offsets of their texts. */
+/* `number` and `starts` have room for all numbers and for the offsets of their texts;
+ * `rows`: the numbers, or NULL. */
 static fg_status read_axis_values(fg_axis_value *out, char **text, double *number,
                                   size_t *starts, const fg__variable *coordinate,
-                                  size_t count)
+                                  size_t count, const double *rows)
 {
   fg_context *context = coordinate->owner->context;
   const size_t start = 0;
-  const fg_status status = fg__variable_fetch(coordinate, &start, &count, number);
+  const fg_status status =
+      rows ? FG_STATUS_OK : fg__variable_fetch(coordinate, &start, &count, number);
   if (status != FG_STATUS_OK)
     return status;
+  if (rows)
+    memcpy(number, rows, count * sizeof *number);
   if (!write_texts(text, starts, coordinate, number, count))
     return fg__fail_memory(context, "an axis' values", count * sizeof *out);
   for (size_t n = 0; n < count; ++n)
     out[n] = (fg_axis_value){number[n], *text, *text + starts[n + 1]};
   return FG_STATUS_OK;
+}
+
+static fg_status axis_values(fg_axis_value **out, char **text, const fg__dataset *data,
+                             const fg__variable *coordinate, size_t count,
+                             const double *rows)
+{
+  fg_status status = FG_STATUS_OK;
+  double *number = fg__allocate(count, sizeof *number);
+  size_t *starts = fg__allocate(count + 1, sizeof *starts);
+  *out = fg__allocate(count, sizeof **out);
+  if (number && starts && *out)
+    status = read_axis_values(*out, text, number, starts, coordinate, count, rows);
+  else
+    status = fg__fail_memory(data->context, "an axis' values", count * sizeof **out);
+  if (status != FG_STATUS_OK) {
+    free(*out);
+    *out = NULL;
+  }
+  free(starts);
+  free(number);
+  return status;
 }
 
 fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__dataset *data,
@@ -291,21 +320,47 @@ fg_status fg__grid_axis_values(fg_axis_value **out, char **text, const fg__datas
     return fg__date_values(out, text, coordinate, count);
   if (coordinate->rank > 1)
     return FG_STATUS_OK;
-  fg_status status = FG_STATUS_OK;
-  double *number = fg__allocate(count, sizeof *number);
-  size_t *starts = fg__allocate(count + 1, sizeof *starts);
-  *out = fg__allocate(count, sizeof **out);
-  if (number && starts && *out)
-    status = read_axis_values(*out, text, number, starts, coordinate, count);
-  else
-    status = fg__fail_memory(data->context, "an axis' values", count * sizeof **out);
-  if (status != FG_STATUS_OK) {
-    free(*out);
-    *out = NULL;
-  }
-  free(starts);
-  free(number);
-  return status;
+  return axis_values(out, text, data, coordinate, count, NULL);
+}
+
+/* The times or levels of a table's rows; NULL: its rows are of one. */
+static const fg__row_axis *rows_of(const fg__grid *grid, bool of_time)
+{
+  const fg__unstructured *mesh = grid->unstructured;
+  const fg__row_axis *rows = !mesh     ? NULL
+                             : of_time ? &mesh->rows_time
+                                       : &mesh->rows_level;
+  return rows && rows->value ? rows : NULL;
+}
+
+fg_status fg__index_values(fg_axis_value **out, char **text, const fg__dataset *data,
+                           const fg__grid *grid, bool of_time)
+{
+  const fg__row_axis *rows = rows_of(grid, of_time);
+  *out = NULL;
+  *text = NULL;
+  if (!rows)
+    return fg__grid_axis_values(out, text, data,
+                                of_time ? grid->time_variable : grid->level_variable,
+                                of_time ? grid->times : grid->levels);
+  return rows->count > MOST_VALUES
+             ? FG_STATUS_OK
+             : axis_values(out, text, data, rows->variable, rows->count, rows->value);
+}
+
+/* The words of the time or level that options choose; "": there is none. */
+static fg_status chosen_words(char *out, size_t size, const fg__grid *grid,
+                              const fg_read_options *options, bool of_time)
+{
+  const fg__row_axis *rows = rows_of(grid, of_time);
+  const fg__variable *v = of_time ? grid->time_variable : grid->level_variable;
+  const size_t index = (size_t)(of_time ? options->time : options->level);
+  if (rows && index < rows->count)
+    write_words(rows->variable, rows->value[index], out, size);
+  else if (!rows && ((of_time ? grid->time : grid->level) >= 0 || v))
+    return fg__index_words(v, of_time ? grid->time_name : grid->level_name, index, out,
+                           size);
+  return FG_STATUS_OK;
 }
 
 void fg__velocity_units(char *out, size_t size, const fg__pair *pair)
@@ -314,6 +369,8 @@ void fg__velocity_units(char *out, size_t size, const fg__pair *pair)
   const bool known = fg__attribute_text(pair->component[0], "units", text, sizeof text);
   if (!known && pair->polar.sense == 0)
     fg__attribute_text(pair->component[1], "units", text, sizeof text);
+  if (!text[0])
+    snprintf(text, sizeof text, "%s", fg__units_of_name(pair->component[0]->plain_name));
   fg__units_read(text, out, size);
 }
 
@@ -321,15 +378,10 @@ fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
                                 const fg__pair *pair, const fg__grid *grid,
                                 const fg_read_options *options)
 {
-  fg_status status = FG_STATUS_OK;
   *out = (fg__vector_words){{0}, {0}, {0}, {0}};
-  if (grid->time >= 0 || grid->time_variable)
-    status = fg__index_words(grid->time_variable, grid->time_name, (size_t)options->time,
-                             out->time, sizeof out->time);
-  if ((grid->level >= 0 || grid->level_variable) && grid->dimension == 2 &&
-      status == FG_STATUS_OK)
-    status = fg__index_words(grid->level_variable, grid->level_name,
-                             (size_t)options->level, out->level, sizeof out->level);
+  fg_status status = chosen_words(out->time, sizeof out->time, grid, options, true);
+  if (grid->dimension == 2 && status == FG_STATUS_OK)
+    status = chosen_words(out->level, sizeof out->level, grid, options, false);
   if (status == FG_STATUS_OK)
     status =
         fg__chosen_words(data, pair->component[0], true, out->time, sizeof out->time);

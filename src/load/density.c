@@ -12,7 +12,7 @@ fg_status fg_density_read(fg_density **out, fg_context *context, const char *pat
   fg_status status = fg__source_open(&source, context, path);
   if (!status)
     status = fg__density_file_read(&file, context, &source, fg_field_contents(field));
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
   if (!status)
     status = fg_density_create_from_arrays(out, context, &file.arrays);
   fg__density_file_clear(&file);

@@ -32,7 +32,7 @@ fg_status fg_icons_read(fg_icons **out, fg_context *context, const char *path)
   fg_status status = fg__source_open(&source, context, path);
   if (status == FG_STATUS_OK)
     status = fg__icon_list_read(&list, context, &source);
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
   if (status == FG_STATUS_OK)
     status = fg__icons_create_empty(&icons, context);
   if (status == FG_STATUS_OK)

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "file/utf8.h"
+#include "base/utf8.h"
 
 void fg__text_clean(char *out, size_t capacity, const char *text)
 {

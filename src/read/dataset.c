@@ -18,7 +18,7 @@ static fg_status check_index(const fg__dataset *data, const char *what, int inde
 {
   if (index >= 0 && (size_t)index < count)
     return FG_STATUS_OK;
-  if (position < 0)
+  if (position < 0 && count < 2)
     return fg__fail(data->context, FG_STATUS_ARGUMENT,
                     "%s: %s %d asked for, but the field has no %s axis",
                     data->file[0].path, what, index, what);
@@ -56,11 +56,6 @@ static void keep_missing(const fg_field *field, const fg__velocity_samples *read
   }
 }
 
-static const char *projection_of(const fg__grid *grid)
-{
-  return grid->dimension == 2 && grid->projection[0] ? grid->projection : NULL;
-}
-
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg_read_options *options,
                             fg__slab_index slab)
@@ -85,7 +80,9 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
     fg_field_arrays arrays = {.dimension = grid->dimension,
                               .valid = read.valid,
                               .scale = grid->scale,
-                              .projection = projection_of(grid),
+                              .projection = grid->dimension == 2 && grid->projection[0]
+                                                ? grid->projection
+                                                : NULL,
                               .velocity_units = words.units,
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
@@ -185,7 +182,7 @@ static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *d
     fg__velocity_samples read = {0};
     status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
-      bool missing = false;
+      bool missing = read.valid && !read.valid[i];
       for (int k = 0; k < grid->dimension; ++k)
         missing = missing || !isfinite(read.velocity[k][i]);
       count += missing;
@@ -205,11 +202,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   char *time_text = NULL, *level_text = NULL;
   fg_status status = FG_STATUS_OK;
   if (!vector->unusable)
-    status = fg__grid_axis_values(&times, &time_text, data, grid->time_variable,
-                                  (size_t)vector->times);
+    status = fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
-    status = fg__grid_axis_values(&levels, &level_text, data, grid->level_variable,
-                                  (size_t)vector->levels);
+    status = fg__index_values(&levels, &level_text, data, grid, false);
   vector->time_value = times;
   vector->level_value = levels;
   if (status == FG_STATUS_OK)

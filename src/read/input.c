@@ -160,13 +160,7 @@ static fg_status answer_field(fg_field **out, fg_context *context, const fg_inpu
                     slab.number, slab.count);
   fg_status status =
       (options.slice ? read_slice : read_slab)(out, context, input, &options, slab);
-  if (status == FG_STATUS_OK)
-    status = sign_slab(*out, context, input, &options);
-  if (status != FG_STATUS_OK) {
-    fg_field_destroy(*out);
-    *out = NULL;
-  }
-  return status;
+  return status == FG_STATUS_OK ? sign_slab(*out, context, input, &options) : status;
 }
 
 static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
@@ -216,20 +210,15 @@ static fg_status answer_inventory(fg_inventory **out, fg_context *context,
 {
   fg_status status = fg__inventory_create(
       out, context, input->format ? input->format->name : "analytic");
-  if (status == FG_STATUS_OK)
-    status = name_the_file(context, describe(*out, context, input, all), input);
-  if (status != FG_STATUS_OK) {
-    fg_inventory_destroy(*out);
-    *out = NULL;
-  }
-  return status;
+  return status == FG_STATUS_OK
+             ? name_the_file(context, describe(*out, context, input, all), input)
+             : status;
 }
 
-fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input,
-                           const fg__question *question)
+static fg_status answer(fg__answer *out, fg_context *context, fg_input *input,
+                        const fg__question *question)
 {
   const fg__format *format = input->format;
-  *out = (fg__answer){.field = NULL};
   switch (question->kind) {
   case FG__ASK_DEFAULTS:
     return format && format->defaults
@@ -246,6 +235,22 @@ fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input
     return answer_field(&out->field, context, input, question);
   }
   return FG_STATUS_ARGUMENT;
+}
+
+fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input,
+                           const fg__question *question)
+{
+  const fg__source *source = &input->source;
+  *out = (fg__answer){.field = NULL};
+  fg_status status = answer(out, context, input, question);
+  if (source->on_disk)
+    status = fg__source_check(context, status, source->path, source->size);
+  if (status != FG_STATUS_OK) {
+    fg_field_destroy(out->field);
+    fg_inventory_destroy(out->inventory);
+    *out = (fg__answer){.field = NULL};
+  }
+  return status;
 }
 
 fg_status fg_input_open(fg_input **out, fg_context *context, const char *input,
@@ -283,7 +288,7 @@ void fg_input_close(fg_input *input)
   fg__isolation_end(&input->isolation);
   if (input->kept.data)
     input->kept.close(input->kept.data);
-  fg__source_close(&input->source);
+  fg__source_close(&input->source, NULL, FG_STATUS_OK);
   fg_inventory_destroy(input->inventory);
   free(input);
 }

@@ -26,7 +26,7 @@ fg_status fg__tensor_rows_read(fg_field *row[2], fg_context *context, const char
   fg_status status = fg__source_open_known(&source, &format, context, path);
   if (!status && format->tensors)
     status = format->tensors(row, &found, context, &source);
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
   if (!status && !found)
     status = read_components(row, context, path, dimension);
   for (int k = 0; k < 2 && status; ++k) {

@@ -1,5 +1,6 @@
 /* A title for fields whose file has none, or but a name that tells nothing. */
 #include "read/title.h"
+#include "base/utf8.h"
 #include "field/field.h"
 
 #include <ctype.h>
@@ -49,7 +50,8 @@ bool fg__title_tells(const char *title, const fg_field_arrays *field)
 static void copy_stem(char out[STEM_BYTES], const char *path)
 {
   const char *slash = strrchr(path, '/');
-  snprintf(out, STEM_BYTES, "%s", slash ? slash + 1 : path);
+  const char *name = slash ? slash + 1 : path;
+  fg__utf8_take(out, STEM_BYTES, name, strlen(name));
   char *dot = strrchr(out, '.');
   if (dot && dot != out && isalpha((unsigned char)dot[1]) &&
       strlen(dot) <= LONGEST_ENDING)
@@ -63,8 +65,8 @@ static void cut_component(char stem[STEM_BYTES], const char *other)
   size_t n = 0;
   while (stem[n] && stem[n] == other[n])
     ++n;
-  if (!stem[n] || !other[n] || strcmp(stem + n + 1, other + n + 1) != 0 ||
-      strlen(stem) <= LEAST_LETTERS)
+  if (!isascii(stem[n]) || !stem[n] || !other[n] ||
+      strcmp(stem + n + 1, other + n + 1) != 0 || strlen(stem) <= LEAST_LETTERS)
     return;
   size_t end = n + 1;
   end += n == 0 ? strspn(stem + end, PARTING) : 0;

@@ -14,11 +14,7 @@ fg_status fg__dataset_open_file(fg__dataset *data, fg_context *context,
                                 const fg__source *source)
 {
   const fg_status status = format->open(data, context, source);
-  for (size_t i = 0; i < data->variable_count && status == FG_STATUS_OK; ++i) {
-    const fg__term term = fg__term_of(&data->variables[i]);
-    data->variables[i].geographic = fg__geographic_role(&term);
-  }
-  return status;
+  return status == FG_STATUS_OK ? fg__settle_names(data) : status;
 }
 
 /* Whether two paths lead to one file. */
@@ -42,8 +38,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
     status = fg__dataset_open_file(data, context, format, &source);
-  fg__source_close(&source);
-  return status;
+  return fg__source_close(&source, context, status);
 }
 
 /* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
@@ -146,6 +141,9 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
 fg_status fg__vector_choice_leave(fg__vector_choice *c, const fg__source *source,
                                   fg_status status)
 {
+  for (int n = 1; c && n < c->data.files; ++n)
+    status = fg__source_check(c->data.context, status, c->data.file[n].path,
+                              c->data.file[n].size);
   if (c && !source->kept)
     close_choice(c);
   return status;

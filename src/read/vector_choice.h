@@ -24,7 +24,8 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
                                   const fg__source *source,
                                   const fg_read_options *options);
 
-/* Closes what is not kept; returns the status. `choice` may be NULL. */
+/* Closes what is not kept. Returns the status, that of the call, or that of a further
+ * file which has become shorter. `choice` may be NULL. */
 fg_status fg__vector_choice_leave(fg__vector_choice *choice, const fg__source *source,
                                   fg_status status);
 

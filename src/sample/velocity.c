@@ -151,10 +151,13 @@ static void close_walls(float *const velocity[2], size_t samples)
         velocity[k][n] = 0.0F;
 }
 
+/* Of the grid's own mask, which is true where a sample is not to be used, without a
+ * name. */
 static fg_status read_mask(fg__velocity_samples *out, const source *from,
                            const char *name)
 {
-  const fg__variable *mask = fg__dataset_find(from->data, name);
+  const fg__variable *mask =
+      name ? fg__dataset_find(from->data, name) : from->grid->hidden;
   if (!mask)
     return fg__fail(from->data->context, FG_STATUS_ARGUMENT,
                     "%s: has no variable '%s' for the mask", from->data->file[0].path,
@@ -169,6 +172,8 @@ static fg_status read_mask(fg__velocity_samples *out, const source *from,
     status = fg__read_mask(out->valid + z * plane_size(&grid), from->data, mask, &grid,
                            from->pair->component[0], from->time,
                            grid.dimension == 3 ? level_of(&grid, z) : from->level);
+  for (size_t n = 0; n < samples && status == FG_STATUS_OK && !name; ++n)
+    out->valid[n] = !out->valid[n];
   return status;
 }
 
@@ -195,7 +200,7 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
     status = read_component(out, &from, k);
-  if (status == FG_STATUS_OK && mask)
+  if (status == FG_STATUS_OK && (mask || grid->hidden))
     status = read_mask(out, &from, mask);
   if (status == FG_STATUS_OK)
     status = settle_missing(out, &from);

@@ -1,6 +1,6 @@
 /* The calendars of the CF conventions (section 4.4.2). */
-#ifndef FG__CALENDAR_H
-#define FG__CALENDAR_H
+#ifndef FG__TERMS_CALENDAR_H
+#define FG__TERMS_CALENDAR_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* What a dimension, coordinate or column is for, by its names and attributes. */
-#ifndef FG__COORDINATES_H
-#define FG__COORDINATES_H
+#ifndef FG__TERMS_COORDINATES_H
+#define FG__TERMS_COORDINATES_H
 
 #include "terms/term.h"
 

@@ -1,7 +1,7 @@
 /* Times as dates and durations in words: of numbers "since" a date, of texts, and as they
  * are asked for. */
-#ifndef FG__DATES_H
-#define FG__DATES_H
+#ifndef FG__TERMS_DATES_H
+#define FG__TERMS_DATES_H
 
 #include <stdbool.h>
 #include <stddef.h>

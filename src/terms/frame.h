@@ -1,7 +1,7 @@
 /* Whether components point east and north or along the lines of their curvilinear grid,
  * as far as names and attributes say (docs/method/model-grids.md). */
-#ifndef FG__FRAME_H
-#define FG__FRAME_H
+#ifndef FG__TERMS_FRAME_H
+#define FG__TERMS_FRAME_H
 
 #include <stddef.h>
 

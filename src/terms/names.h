@@ -2,8 +2,8 @@
  * place of what denotes a component: "U_GRD_6_ISBL" is "#_GRD_6_ISBL" of component 0. A
  * name can have several. Names with one pattern and different components are a vector's.
  */
-#ifndef FG__NAMES_H
-#define FG__NAMES_H
+#ifndef FG__TERMS_NAMES_H
+#define FG__TERMS_NAMES_H
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* Lengths and directions of vectors in place of components: speeds with the directions of
  * winds, heights with those of waves. */
-#ifndef FG__POLAR_H
-#define FG__POLAR_H
+#ifndef FG__TERMS_POLAR_H
+#define FG__TERMS_POLAR_H
 
 #include "base/context.h"
 #include "terms/term.h"

@@ -1,6 +1,6 @@
 /* What a variable, column or array is called, and what it says of itself. */
-#ifndef FG__TERM_H
-#define FG__TERM_H
+#ifndef FG__TERMS_TERM_H
+#define FG__TERMS_TERM_H
 
 #include <stdbool.h>
 

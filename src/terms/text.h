@@ -1,7 +1,7 @@
 /* Comparisons of names and attributes, which are ASCII, in either case and in any
  * locale. */
-#ifndef FG__TEXT_H
-#define FG__TEXT_H
+#ifndef FG__TERMS_TEXT_H
+#define FG__TERMS_TEXT_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -219,3 +219,8 @@ bool fg__is_unit_in_name(const char *word)
          unit.quantity == SPEED || strchr(word, '/') != NULL ||
          fg__is_one_of("px|pix|pixel|pixels", word, strlen(word));
 }
+
+const char *fg__units_of_name(const char *name)
+{
+  return fg__is_same(name, "sknt") ? "kn" : "";
+}

@@ -1,7 +1,7 @@
 /* Units in files ("m s**-1", "centimeter/s", "degrees_north") and on axis labels ("m/s",
  * "cm/s", "°N"). */
-#ifndef FG__UNITS_H
-#define FG__UNITS_H
+#ifndef FG__TERMS_UNITS_H
+#define FG__TERMS_UNITS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -47,6 +47,9 @@ double fg__unit_factor(const char *from, const char *to);
 /* Whether two units are known and not equal: "m/s" and "cm/s" are no units of one
  * vector. */
 bool fg__units_differ(const char *a, const char *b);
+
+/* The units that a name implies, "kn" of METAR's sknt; "": none. */
+const char *fg__units_of_name(const char *name);
 
 /* Whether a word is a unit that stands behind a name without brackets: "X mm". */
 bool fg__is_unit_in_name(const char *word);

@@ -1,7 +1,7 @@
 /* The vectors that variables, columns or arrays form: by standard names, by names, and as
  * a speed with its direction. */
-#ifndef FG__VECTORS_H
-#define FG__VECTORS_H
+#ifndef FG__TERMS_VECTORS_H
+#define FG__TERMS_VECTORS_H
 
 #include "terms/polar.h"
 
@@ -13,7 +13,8 @@ typedef enum fg__evidence {
   FG__BY_SPEED_AND_DIRECTION = 4, /* where there are no components of a velocity */
   FG__BY_STANDARD_OTHER = 6,
   FG__BY_OTHER_NAMES = 8,
-  FG__BY_UPRIGHT_NAMES = 10
+  FG__BY_UPRIGHT_NAMES = 10,
+  FG__BY_SHAPE = 12 /* of an array alone */
 } fg__evidence;
 
 typedef struct fg__vector {

@@ -36,8 +36,8 @@ static void close_written(written *w)
   fg__vtk_values_clear(&w->ghost);
   fg__vtk_values_clear(&w->cluster);
   fg__vtk_values_clear(&w->u);
-  fg__vtk_close(&w->vti);
-  fg__source_close(&w->source);
+  assert_int_equal(fg__vtk_close(&w->vti, FG_STATUS_OK), FG_STATUS_OK);
+  fg__source_close(&w->source, NULL, FG_STATUS_OK);
 }
 
 /* 6 x 5 nodes, periodic along x: a cluster across the boundary, one within, a masked

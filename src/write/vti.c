@@ -1,9 +1,9 @@
 #include "write/vti.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "file/base64.h"
 #include "file/number_text.h"
-#include "file/utf8.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -271,6 +271,12 @@ try info "$cells" --format speech
 expect_error "no format is called \"speech\""
 try rival - -o no.geojson --max-memory 100K < "$cells"
 expect_error "standard input: more than 102400 bytes"
+if [ -z "$sanitized" ]; then # without an end, and a gigabyte of memory
+  try info - < /dev/zero
+  expect_code 1
+  expect_one_complaint
+  expect_error "standard input: more than 1073741824 bytes"
+fi
 try rival "$cells" -o no.geojson --max-memory 100K
 expect_error "a field of 18721 samples takes 0.14"
 expect_nothing_at no.geojson

@@ -482,7 +482,7 @@ class FlowgrainArrows(VTKPythonAlgorithmBase):
         x, y, *rest = field.axes
         u, v, *third = field.velocity
         volume = {"w": third[0], "z": rest[0]} if rest else {}
-        few = flowgrain.arrows(u, v, x, y, **volume, **self._options)
+        few = flowgrain.arrows(x, y, u, v, **volume, **self._options)
         return polydata_of(few, field, self._lift * field.width)
 
 

@@ -8,12 +8,18 @@
 #include "base/memory.h"
 #include "decode/netcdf/netcdf.h"
 
+#include <netcdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
-enum { CHECKSUM_BYTES = 4, WINDOW_BYTES = 1 << 16 };
+enum {
+  CHUNKS_AT_ONCE = 1024, /* HDF5 takes 7 kB of memory for each, and its time */
+  CHECKSUM_BYTES = 4,
+  WINDOW_BYTES = 1 << 16,
+  GROUP_BYTES = 16 * NC_MAX_NAME /* of a group's name with those it is in */
+};
 
 /* A chunked data set, and the part of it that is read. */
 typedef struct chunked {
@@ -183,21 +189,69 @@ static fg_status check_part(chunked *c, const size_t *start, const size_t *count
   return status;
 }
 
-/* libnetcdf stores a variable with the name of a dimension, which is no coordinate of it,
- * under another name. */
+/* Opens a variable by the bytes of its name in the file. libnetcdf stores a variable with
+ * the name of a dimension, which is no coordinate of it, under another name. */
 static hid_t open_set(hid_t file, const fg__variable *v)
 {
   static const char *const before[] = {"", "_nc4_non_coord_"};
-  char name[2 * FG__NAME_BYTES];
-  const char *plain = v->plain_name;
-  for (size_t n = 0; n < sizeof before / sizeof *before; ++n) {
-    snprintf(name, sizeof name, "/%.*s%s%s", (int)(plain - v->name), v->name, before[n],
-             plain);
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    if (set >= 0)
-      return set;
+  char group[GROUP_BYTES], own[NC_MAX_NAME + 1], name[GROUP_BYTES + 2 * NC_MAX_NAME];
+  size_t length = 0;
+  hid_t set = -1;
+  if (nc_inq_grpname_full(v->place, &length, NULL) || length >= sizeof group ||
+      nc_inq_grpname_full(v->place, &length, group) ||
+      nc_inq_varname(v->place, v->id, own))
+    return -1;
+  for (size_t n = 0; n < sizeof before / sizeof *before && set < 0; ++n) {
+    snprintf(name, sizeof name, "%s/%s%s", group, before[n], own);
+    set = H5Dopen2(file, name, H5P_DEFAULT);
   }
-  return -1;
+  return set;
+}
+
+/* Along the first dimension of more than one sample the parts of `out` lie one behind the
+ * other. */
+static int get_part(const fg__variable *v, const size_t *length, size_t *start,
+                    size_t *count, double *out)
+{
+  const int rank = v->rank + (v->element > 0);
+  size_t chunks = 1, row = 1;
+  int along = 0;
+  while (along + 1 < rank && count[along] == 1)
+    ++along;
+  for (int k = 0; k < rank; ++k) {
+    if (count[k] == 0)
+      return NC_NOERR;
+    chunks *= (start[k] + count[k] - 1) / length[k] - start[k] / length[k] + 1;
+    row *= k > along ? count[k] : 1;
+  }
+  /* the first part ends with a chunk */
+  const size_t middle = start[along] + count[along] / 2, all = count[along];
+  const size_t first = middle - middle % length[along];
+  if (chunks <= CHUNKS_AT_ONCE || first <= start[along])
+    return nc_get_vara_double(v->place, v->id, start, count, out);
+  const size_t before = first - start[along];
+  count[along] = before;
+  int error = get_part(v, length, start, count, out);
+  start[along] += before;
+  count[along] = all - before;
+  if (!error)
+    error = get_part(v, length, start, count, out + before * row);
+  start[along] -= before;
+  count[along] = all;
+  return error;
+}
+
+int fg__nc_get_numbers(const fg__variable *v, const size_t *start, const size_t *count,
+                       double *out)
+{
+  size_t length[NC_MAX_VAR_DIMS], from[FG__RANK + 1], counts[FG__RANK + 1];
+  int storage = NC_CONTIGUOUS;
+  if (v->rank > FG__RANK || nc_inq_var_chunking(v->place, v->id, &storage, length) ||
+      storage != NC_CHUNKED)
+    return nc_get_vara_double(v->place, v->id, start, count, out);
+  memcpy(from, start, sizeof from);
+  memcpy(counts, count, sizeof counts);
+  return get_part(v, length, from, counts, out);
 }
 
 fg_status fg__nc_check_chunks(const fg__variable *v, const size_t *start,
@@ -213,13 +267,17 @@ fg_status fg__nc_check_chunks(const fg__variable *v, const size_t *start,
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   chunked c = {
       .variable = v, .storage = storage, .set = open_set((hid_t)storage->file, v)};
+  const bool is_found = c.set >= 0;
   fg_status status = FG_STATUS_OK;
-  if (c.set >= 0) {
+  if (is_found) {
     if (describe(&c))
       status = check_part(&c, start, count);
     H5Dclose(c.set);
   }
   free(c.stored);
   H5Eset_auto2(H5E_DEFAULT, print, print_data);
+  if (!is_found)
+    return fg__fail(v->owner->context, FG_STATUS_FILE_FORMAT,
+                    "%s: damaged: HDF5 cannot find '%.200s'", v->path, v->name);
   return status;
 }

@@ -60,6 +60,7 @@ static fg_status list_dimensions(const listing *l)
     if (!d)
       continue;
     d->id = ids[i];
+    d->is_nameless = strncmp(name, "phony_dim_", 10) == 0;
     for (int k = 0; k < unlimited_count; ++k)
       d->unlimited = d->unlimited || unlimited[k] == ids[i];
   }
@@ -317,7 +318,7 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
   const fg_status status = fg__nc_check_chunks(v, start, count);
   if (status != FG_STATUS_OK)
     return status;
-  const int error = nc_get_vara_double(v->place, v->id, start, count, out);
+  const int error = fg__nc_get_numbers(v, start, count, out);
   return error ? fail(v->owner->context, v->path, v->name, error) : FG_STATUS_OK;
 }
 
@@ -375,7 +376,8 @@ static void close_state(void *state)
   free(nc);
 }
 
-static const fg__decoder DECODER = {fetch, fetch_texts, close_state};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .fetch_texts = fetch_texts, .close = close_state};
 
 static fg_status list_file(fg__dataset *dataset, fg_context *context,
                            const fg__source *source, fg__nc_state *state)

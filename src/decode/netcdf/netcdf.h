@@ -52,6 +52,11 @@ typedef struct fg__nc_state {
   fg__nc_storage storage;
 } fg__nc_state;
 
+/* Reads a part of a variable as nc_get_vara_double does, few chunks at a time; start and
+ * count have FG__RANK + 1 numbers. */
+int fg__nc_get_numbers(const fg__variable *variable, const size_t *start,
+                       const size_t *count, double *out);
+
 /* Checks the chunks of a part that is to be read; indices are the file's. FILE_FORMAT
  * (one would become far larger in memory than the file says), MEMORY. */
 fg_status fg__nc_check_chunks(const fg__variable *variable, const size_t *start,

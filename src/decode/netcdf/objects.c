@@ -1,21 +1,29 @@
 /* Checks the structure of a NetCDF-4 file before libnetcdf opens it. libnetcdf follows
  * every HDF5 link: it would list the groups of a cyclic link repeatedly, and would read
- * from another file through an external link. All links and data sets are therefore
- * checked here first, with HDF5 itself, each object once. */
+ * from another file through an external link; and it takes names of any length. All
+ * links, data sets and names are therefore checked here first, with HDF5 itself, each
+ * object once. */
 #define H5_USE_110_API
 #include <hdf5.h>
 
 #include "base/memory.h"
 #include "decode/netcdf/netcdf.h"
 
+#include <netcdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* libnetcdf opens each of them and takes time for it: half a second for so many. Model
+ * output has hundreds of objects, and NetCDF had this bound of attributes once. */
 enum {
-  MOST_OBJECTS = 1 << 15, /* data sets and groups; model output has hundreds */
-  DEEPEST = 64            /* groups within groups */
+  MOST_OBJECTS = 1 << 13,    /* data sets and groups */
+  MOST_ATTRIBUTES = 1 << 13, /* of one object */
+  DEEPEST = 64               /* groups within groups */
 };
+
+/* libnetcdf does not end names that are longer, and reads and writes beyond them. */
+enum { LONGEST_NAME = NC_MAX_NAME - 1 };
 
 /* A chunk is in memory as a whole, twice while it is inflated. Usual chunks have a few
  * megabytes. */
@@ -41,6 +49,37 @@ static fg_status refuse(walk *w, const char *name, const char *why)
 {
   return fg__fail(w->context, FG_STATUS_UNSUPPORTED, "%s: '%.200s' %s", w->path, name,
                   why);
+}
+
+static fg_status check_name(walk *w, const char *name)
+{
+  const size_t length = strlen(name);
+  return length <= LONGEST_NAME
+             ? FG_STATUS_OK
+             : fg__fail(w->context, FG_STATUS_UNSUPPORTED,
+                        "%s: '%.40s...' is a name of %zu bytes; names of up to %d can be "
+                        "read",
+                        w->path, name, length, LONGEST_NAME);
+}
+
+static herr_t check_attribute(hid_t object, const char *name, const H5A_info_t *about,
+                              void *data)
+{
+  (void)object, (void)about;
+  walk *w = data;
+  w->status = check_name(w, name);
+  return w->status == FG_STATUS_OK ? 0 : 1;
+}
+
+static fg_status check_attributes(walk *w, const char *name, hid_t object, hsize_t count)
+{
+  if (count > MOST_ATTRIBUTES)
+    return fg__fail(w->context, FG_STATUS_UNSUPPORTED,
+                    "%s: '%.200s' has %llu attributes; %d can be read", w->path, name,
+                    (unsigned long long)count, MOST_ATTRIBUTES);
+  w->status = FG_STATUS_OK;
+  H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, check_attribute, w);
+  return w->status;
 }
 
 /* Filters enlarge data by little. A chunk that takes many more bytes in the file than in
@@ -160,8 +199,11 @@ static fg_status check_object(walk *w, const char *name, hid_t object)
   if (++w->objects > MOST_OBJECTS)
     return fg__fail(w->context, FG_STATUS_UNSUPPORTED,
                     "%s: has more than %d groups and variables", w->path, MOST_OBJECTS);
-  if (H5Oget_info2(object, &about, H5O_INFO_BASIC) < 0)
+  if (H5Oget_info2(object, &about, H5O_INFO_BASIC | H5O_INFO_NUM_ATTRS) < 0)
     return FG_STATUS_OK;
+  const fg_status status = check_attributes(w, name, object, about.num_attrs);
+  if (status != FG_STATUS_OK)
+    return status;
   if (about.type == H5O_TYPE_GROUP)
     return enter_group(w, name, object, about.addr);
   return about.type == H5O_TYPE_DATASET ? check_set(w, name, object) : FG_STATUS_OK;
@@ -175,6 +217,8 @@ static herr_t check_link(hid_t group, const char *name, const H5L_info_t *link,
   if (w->status == FG_STATUS_OK && link->type != H5L_TYPE_HARD &&
       link->type != H5L_TYPE_SOFT)
     w->status = refuse(w, name, "is a link into another file");
+  if (w->status == FG_STATUS_OK)
+    w->status = check_name(w, name);
   if (w->status == FG_STATUS_OK) {
     const hid_t object = H5Oopen(group, name, w->access);
     if (object >= 0) {

@@ -202,7 +202,7 @@ static void take_points(fg__unstructured *out, const fg__mesh_search *search,
   out->node[1] = at[1];
   out->centre[0] = out->centre[1] = NULL;
   snprintf(out->rule, sizeof out->rule,
-           "east and north, on points%s at '%.40s', '%.40s'%s, triangulated",
+           "east and north, on points%s at '%.40s', '%.40s'%s",
            rank == 2 ? " of trajectories" : "", at[0]->plain_name, at[1]->plain_name,
            have_times(search, rank) ? " at all their times" : "");
 }
@@ -237,8 +237,8 @@ bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search)
       !fg__attribute_text(root, "featureType", text, sizeof text) ||
       strcasecmp(text, "trajectory") != 0 || !find_positions(at, search, 2))
     return false;
-  out->of_trajectories = true;
-  out->beside = u->dimension[0];
+  out->rank = 2;
+  out->before[0] = u->dimension[0];
   take_points(out, search, at, 2);
   return true;
 }

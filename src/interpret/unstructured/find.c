@@ -9,6 +9,10 @@
 
 void fg__unstructured_destroy(fg__unstructured *mesh)
 {
+  if (mesh) {
+    free(mesh->rows_time.value);
+    free(mesh->rows_level.value);
+  }
   free(mesh);
 }
 
@@ -108,12 +112,12 @@ static bool recognise(fg__unstructured *out, fg__mesh_search *search)
   static const struct {
     bool (*find)(fg__unstructured *, fg__mesh_search *);
     bool of_times; /* also along times that have places */
-  } rules[] = {{fg__find_ugrid, false},
-               {fg__find_healpix, false},
-               {fg__find_model, false},
-               {fg__find_coordinates, true},
-               {fg__find_trajectories, true}};
-  for (size_t n = 0; n < sizeof rules / sizeof *rules && !search->lacks[0]; ++n)
+  } rules[] = {{fg__find_ugrid, false},       {fg__find_healpix, false},
+               {fg__find_model, false},       {fg__find_coordinates, true},
+               {fg__find_trajectories, true}, {fg__find_places, true}};
+  const size_t count = sizeof rules / sizeof *rules;
+  const bool named = search->pair && search->pair->position[0];
+  for (size_t n = named ? count - 1 : 0; n < count && !search->lacks[0]; ++n)
     for (int k = 0; k < search->u->rank; ++k) {
       *out = (fg__unstructured){.dimension = search->u->dimension[k]};
       search->k = k;
@@ -156,30 +160,67 @@ static fg__grid_axis axis_along(const fg__dataset *data, const fg__variable *v, 
                          .size = data->dimensions[v->dimension[k]].length};
 }
 
+bool fg__points_north(const fg__unstructured *mesh)
+{
+  return !mesh->in_plane || (mesh->location == FG__MESH_ON_POINTS &&
+                             mesh->node[0]->geographic == FG__ROLE_X &&
+                             mesh->node[1]->geographic == FG__ROLE_Y);
+}
+
+bool fg__lies_at_places(const fg__unstructured *mesh, const fg__variable *v)
+{
+  const int rank = mesh->rank > 1 ? mesh->rank : 1;
+  bool same =
+      v->element == 0 && v->rank == rank && v->dimension[rank - 1] == mesh->dimension;
+  for (int k = 0; k + 1 < rank && same; ++k)
+    same = v->dimension[k] == mesh->before[k];
+  return same;
+}
+
+int fg__places_dimension(const fg__unstructured *mesh, const fg__pair *pair)
+{
+  return mesh->node[2] && pair->component[2] ? 3 : 2;
+}
+
+/* Of arrays of places: all of them are one axis, before which is time, and level. */
+static bool axis_of_arrays(fg__grid *grid, const fg__dataset *data, const fg__variable *v,
+                           const fg__unstructured *mesh)
+{
+  const int first = v->rank - mesh->rank;
+  bool same = first >= 0 && first <= 2;
+  for (int k = 0; k < mesh->rank && same; ++k)
+    same = fg__same_dimension(data, v->dimension[first + k],
+                              k + 1 < mesh->rank ? mesh->before[k] : mesh->dimension);
+  if (!same)
+    return false;
+  grid->axis[0] = axis_along(data, v, v->rank - 1);
+  grid->axis[1] = axis_along(data, v, v->rank - 2);
+  grid->time = first > 0 ? 0 : -1;
+  grid->level = first > 1 ? 1 : -1;
+  grid->samples = 1;
+  for (int k = first; k < v->rank; ++k)
+    grid->samples *= data->dimensions[v->dimension[k]].length;
+  fg__set_index_axes(grid, data, v);
+  return true;
+}
+
 /* A second axis of length 1 that is none of the variable's makes it a plane to the
  * readers of values. */
 bool fg__unstructured_axis(fg__grid *grid, const fg__dataset *data, const fg__variable *v,
                            const fg__unstructured *mesh)
 {
   int position[FG__ROLES], k = 0;
+  if (mesh->rank > 1)
+    return axis_of_arrays(grid, data, v, mesh);
   while (k < v->rank && !fg__same_dimension(data, v->dimension[k], mesh->dimension))
     ++k;
-  if (k == v->rank)
+  if (k == v->rank || fg__roles_find_beside(position, data, v, k) >= 0)
     return false;
   grid->axis[0] = axis_along(data, v, k);
-  if (mesh->of_trajectories) {
-    if (v->rank != 2 || !fg__same_dimension(data, v->dimension[1 - k], mesh->beside))
-      return false;
-    grid->axis[1] = axis_along(data, v, 1 - k);
-    grid->time = grid->level = -1;
-  } else {
-    if (fg__roles_find_beside(position, data, v, k) >= 0)
-      return false;
-    grid->axis[1] = (fg__grid_axis){.dimension = -1, .position = v->rank, .size = 1};
-    grid->time = position[FG__ROLE_TIME];
-    grid->level = position[FG__ROLE_LEVEL];
-  }
-  grid->samples = grid->axis[0].size * grid->axis[1].size;
+  grid->axis[1] = (fg__grid_axis){.dimension = -1, .position = v->rank, .size = 1};
+  grid->time = position[FG__ROLE_TIME];
+  grid->level = position[FG__ROLE_LEVEL];
+  grid->samples = grid->axis[0].size;
   fg__set_index_axes(grid, data, v);
   return true;
 }
@@ -190,8 +231,8 @@ static void check_storage(fg__grid *grid, const fg__dataset *data,
 {
   const fg__variable *all[] = {pair->component[0], pair->component[1], mesh->connectivity,
                                mesh->corner_count, mesh->node[0],      mesh->node[1],
-                               mesh->centre[0],    mesh->centre[1],    mesh->bounds[0],
-                               mesh->bounds[1],    mesh->pixel};
+                               mesh->node[2],      mesh->centre[0],    mesh->centre[1],
+                               mesh->bounds[0],    mesh->bounds[1],    mesh->pixel};
   for (size_t n = 0; n < sizeof all / sizeof *all; ++n) {
     fg__grid one = {.samples = grid->samples};
     if (!all[n])
@@ -238,7 +279,7 @@ static void check_pair(fg__grid *grid, const fg__dataset *data, const fg__pair *
            mesh->of_v.times != grid->times || mesh->of_v.levels != grid->levels)
     fg__set_unusable(grid->unusable, "'%.60s' does not lie on the dimensions of '%.60s'",
                      v->plain_name, u->plain_name);
-  else if (pair->volume)
+  else if (pair->volume && fg__places_dimension(mesh, pair) == 2)
     fg__set_unusable(grid->unusable,
                      "three components on an unstructured mesh; two can be read");
   else if (options->frame == FG_FRAME_GRID)
@@ -298,9 +339,9 @@ static fg_status check_places(fg__grid *grid, const fg__dataset *data,
   if (!of_v[0] || !of_v[1])
     return FG_STATUS_OK;
   const size_t count = data->dimensions[of_u[0]->dimension[0]].length;
-  fg_status status = fg__positions_of(a, data, mesh, of_u, count);
+  fg_status status = fg__positions_of(a, data, mesh, of_u, count, 2);
   if (status == FG_STATUS_OK)
-    status = fg__positions_of(b, data, mesh, of_v, count);
+    status = fg__positions_of(b, data, mesh, of_v, count, 2);
   if (status == FG_STATUS_OK && lie_apart(a, b, count, !mesh->in_plane))
     fg__refuse_apart(grid, pair);
   for (int k = 0; k < 2; ++k) {
@@ -318,7 +359,7 @@ static bool is_numbers(const fg__variable *v)
 fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
                                 const fg__pair *pair, const fg_read_options *options)
 {
-  fg__mesh_search search = {.data = data, .u = pair->component[0]};
+  fg__mesh_search search = {.data = data, .u = pair->component[0], .pair = pair};
   if (!is_numbers(pair->component[0]) || !is_numbers(pair->component[1]))
     return FG_STATUS_OK;
   fg__unstructured *mesh = fg__allocate(1, sizeof *mesh);
@@ -334,12 +375,17 @@ fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
     return FG_STATUS_OK;
   }
   grid->unstructured = mesh;
-  grid->dimension = 2;
+  grid->dimension = fg__places_dimension(mesh, pair);
   find_mask(mesh, data);
   check_pair(grid, data, pair, options);
-  const fg_status status =
-      grid->unusable[0] ? FG_STATUS_OK : check_places(grid, data, pair);
-  grid->scale = mesh->in_plane ? FG_SCALE_MAP : FG_SCALE_GEO;
+  fg_status status = grid->unusable[0] ? FG_STATUS_OK : check_places(grid, data, pair);
+  if (status == FG_STATUS_OK && !grid->unusable[0])
+    status = fg__rows_find(grid, data, pair, options);
+  if (options->scale == FG_SCALE_GEO && mesh->location == FG__MESH_ON_POINTS)
+    mesh->in_plane = false;
+  grid->scale = !mesh->in_plane                                 ? FG_SCALE_GEO
+                : data->dimensions[mesh->dimension].is_nameless ? FG_SCALE_PLAIN
+                                                                : FG_SCALE_MAP;
   if (options->scale == FG_SCALE_GEO && mesh->in_plane)
     fg__set_unusable(grid->unusable, "scale geo needs longitudes and latitudes");
   if (options->scale == FG_SCALE_PLAIN || options->scale == FG_SCALE_MAP) {

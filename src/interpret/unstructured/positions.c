@@ -6,11 +6,6 @@
 
 static const double DEGREES_PER_RADIAN = 57.29577951308232;
 
-static size_t length_of(const fg__dataset *data, const fg__variable *v, int k)
-{
-  return data->dimensions[v->dimension[k]].length;
-}
-
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
 {
   char units[FG__TEXT_BYTES];
@@ -19,13 +14,14 @@ double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
   return strncmp(units, "rad", 3) == 0 ? DEGREES_PER_RADIAN : 1.0;
 }
 
-fg_status fg__positions_of(double *out[2], const fg__dataset *data,
-                           const fg__unstructured *mesh, const fg__variable *const at[2],
-                           size_t count)
+fg_status fg__positions_of(double *out[], const fg__dataset *data,
+                           const fg__unstructured *mesh, const fg__variable *const at[],
+                           size_t count, int coordinates)
 {
-  for (int k = 0; k < 2; ++k) {
-    const size_t numbers =
-        length_of(data, at[k], 0) * (at[k]->rank > 1 ? length_of(data, at[k], 1) : 1);
+  for (int k = 0; k < coordinates; ++k) {
+    size_t numbers = 1;
+    for (int d = 0; d < at[k]->rank; ++d)
+      numbers *= data->dimensions[at[k]->dimension[d]].length;
     if (numbers != count)
       return fg__fail(data->context, FG_STATUS_FILE_FORMAT,
                       "%s: '%s' has %zu numbers instead of %zu", at[k]->path, at[k]->name,

@@ -12,16 +12,25 @@ typedef enum fg__mesh_location {
   FG__MESH_ON_FACES
 } fg__mesh_location;
 
+/* Times or levels of a table's rows: a column. */
+typedef struct fg__row_axis {
+  const fg__variable *variable; /* NULL: there is none */
+  size_t count;
+  double *value;  /* [count], ascending: those that tell rows apart; NULL: all count */
+  double ends[2]; /* of all rows */
+} fg__row_axis;
+
 struct fg__unstructured {
   fg__mesh_location location;
-  int dimension;                    /* of the vectors, of the file's */
-  bool of_trajectories;             /* in arrays [trajectories][places] */
-  int beside;                       /* the trajectories' dimension, where there is */
+  int dimension; /* of the vectors, of the file's */
+  int rank;      /* of arrays of places; the last is `dimension` */
+  int before[2]; /* the others, where rank is 2 or 3 */
+  fg__row_axis rows_time, rows_level;
   const fg__variable *connectivity; /* nodes of faces, 2 dimensions; NULL: none */
   int faces_along;                  /* which of its dimensions is the faces' */
   int start;                        /* its number of the first node, if it says none */
   const fg__variable *corner_count; /* nodes of each face; NULL: up to a fill value */
-  const fg__variable *node[2];      /* positions x, y of nodes, or of points */
+  const fg__variable *node[3];      /* positions x, y of nodes, or x, y(, z) of points */
   const fg__variable *centre[2];    /* of faces; NULL: in the middle of their nodes */
   const fg__variable *bounds[2];    /* [faces][corners], instead of nodes */
   const fg__variable *wet, *pixel;  /* NULL: none */
@@ -51,6 +60,30 @@ bool fg__unstructured_axis(fg__grid *grid, const fg__dataset *data, const fg__va
  * lacks something. */
 bool fg__unstructured_line(const fg__dataset *data, const fg__variable *v);
 
+/* Whether north is known: places are longitudes and latitudes, be they read as a plane's.
+ */
+bool fg__points_north(const fg__unstructured *mesh);
+
+/* Whether a variable has one number for each place. */
+bool fg__lies_at_places(const fg__unstructured *mesh, const fg__variable *v);
+
+/* How many coordinates of the places are used: three with as many components. */
+int fg__places_dimension(const fg__unstructured *mesh, const fg__pair *pair);
+
+/* rows.c. Finds out which columns have times and levels that tell rows of a table apart:
+ * more than a tenth of them lie where others do, or each time has 8 rows or more that are
+ * scattered like all of them. MEMORY, FILE_FORMAT. */
+fg_status fg__rows_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                        const fg_read_options *options);
+
+/* Numbers of a column, dates as seconds from 1970 on; NaN: none. */
+fg_status fg__row_values(double *out, const fg__dataset *data, const fg__variable *v,
+                         size_t count);
+
+/* Sets valid[count] to 0 of rows that a column marks as no measurement. */
+fg_status fg__rows_hide(unsigned char *valid, const fg__dataset *data,
+                        const fg__unstructured *mesh, size_t count);
+
 /* Which file a mesh is of: 0 or 1. */
 int fg__unstructured_file(const fg__unstructured *mesh);
 
@@ -60,11 +93,13 @@ bool fg__unstructured_elsewhere(const fg__dataset *data, const fg__variable *v);
 /* The steps of that: whether variable u lies on such a mesh, along its dimension number
  * k. ugrid.c: the attributes of the UGRID conventions, 1.0. models.c: names of MPAS,
  * FVCOM, ADCIRC, ICON. coordinates.c: longitude and latitude along one dimension, with
- * bounds or without, or along trajectories; HEALPix. Writes what is lacking into `lacks`,
- * which then is why the pair can not be read. */
+ * bounds or without, or along trajectories; HEALPix. places.c: x, y(, z) or those that
+ * are named, along one dimension, or in arrays without names. Writes what is lacking into
+ * `lacks`, which then is why the pair can not be read. */
 typedef struct fg__mesh_search {
   const fg__dataset *data;
   const fg__variable *u;
+  const fg__pair *pair; /* whose places may be named; NULL: not known */
   int k;
   char lacks[2 * FG__TEXT_BYTES];
   bool elsewhere; /* what is lacking may be in another file */
@@ -75,6 +110,7 @@ bool fg__find_model(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_healpix(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_coordinates(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_places(fg__unstructured *out, fg__mesh_search *search);
 
 /* Longitude (X), latitude (Y) or neither, in degrees or radians. */
 fg__role fg__angle_role(const fg__variable *v);
@@ -90,9 +126,9 @@ bool fg__named_positions(const fg__variable *out[2], const fg__dataset *data,
 /* Degrees in a unit of positions. */
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v);
 
-/* Positions of one dimension, in degrees or the plane's units. */
-fg_status fg__positions_of(double *out[2], const fg__dataset *data,
-                           const fg__unstructured *mesh, const fg__variable *const at[2],
-                           size_t count);
+/* Positions of two or three coordinates, in degrees or the plane's units. */
+fg_status fg__positions_of(double *out[], const fg__dataset *data,
+                           const fg__unstructured *mesh, const fg__variable *const at[],
+                           size_t count, int coordinates);
 
 #endif

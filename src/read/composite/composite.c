@@ -147,9 +147,9 @@ static fg_status open_file(composite *c, fg__vtk *by, const char *name, file_kin
     status = fg__fail_memory(whole->context, "files", whole->file_count * sizeof file);
   }
   if (file.vtk)
-    fg__vtk_close(file.vtk);
+    status = fg__vtk_close(file.vtk, status);
   free(file.vtk);
-  fg__source_close(&file.source);
+  status = fg__source_close(&file.source, whole->context, status);
   free(file.path);
   return status;
 }

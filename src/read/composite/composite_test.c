@@ -155,6 +155,42 @@ static void files_elsewhere_are_not_opened(void **state)
   fg_field_destroy(field);
 }
 
+/* Links are followed before: of a file, of a folder on the way, and back in. */
+static void links_do_not_lead_out_of_the_folder(void **state)
+{
+  static const struct {
+    const char *name, *to, *source;
+    bool good;
+  } rows[] = {{"file.vti", "../elsewhere/left.vti", "file.vti", false},
+              {"chain.vti", "file.vti", "chain.vti", false},
+              {"way", "../elsewhere", "way/left.vti", false},
+              {"back", "../here/below", "back/all.vti", true},
+              {"own.vti", "below/all.vti", "own.vti", true}};
+  folder *f = *state;
+  char text[512], link[256];
+  mkdir(path_in(f, "here"), 0700);
+  mkdir(path_in(f, "here/below"), 0700);
+  mkdir(path_in(f, "elsewhere"), 0700);
+  store_image(f, "elsewhere/left.vti", 0, 4, 1.0);
+  store_image(f, "here/below/all.vti", 0, 4, 1.0);
+  for (size_t n = 0; n < sizeof rows / sizeof *rows; ++n) {
+    snprintf(link, sizeof link, "%s/here/%s", f->path, rows[n].name);
+    assert_int_equal(symlink(rows[n].to, link), 0);
+    snprintf(text, sizeof text, PVTI("0 4 0 2 0 0", "<Piece Source='%s'/>"),
+             rows[n].source);
+    store_words(f, "here/it.pvti", text);
+    if (rows[n].good)
+      fg_field_destroy(read_as(f, "here/it.pvti", NULL));
+    else
+      refused(f, "here/it.pvti", NULL, FG_STATUS_UNSUPPORTED,
+              "which links lead out of its folder");
+  }
+  /* a folder that is itself a link */
+  snprintf(link, sizeof link, "%s/linked", f->path);
+  assert_int_equal(symlink("here", link), 0);
+  fg_field_destroy(read_as(f, "linked/it.pvti", NULL));
+}
+
 static void a_collection_has_times(void **state)
 {
   folder *f = *state;
@@ -239,9 +275,8 @@ static void blocks_are_merged_or_chosen(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(pieces_of_an_image_are_one),
-      CASE(files_elsewhere_are_not_opened),
-      CASE(a_collection_has_times),
+      CASE(pieces_of_an_image_are_one),          CASE(files_elsewhere_are_not_opened),
+      CASE(links_do_not_lead_out_of_the_folder), CASE(a_collection_has_times),
       CASE(blocks_are_merged_or_chosen),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,13 +2,15 @@
 #include "read/composite/names.h"
 
 #include "base/memory.h"
+#include "base/names.h"
 #include "file/number_text.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_DEPTH = 64, NAMES_BYTES = 512 };
+enum { MOST_DEPTH = 64 };
 
 void fg__vtk_names_clear(fg__vtk_names *list)
 {
@@ -187,13 +189,11 @@ static bool is_in(const char *block, const char *wanted)
 fg_status fg__vtk_names_choose_block(fg__vtk_names *list, fg_context *context,
                                      const char *path, const char *wanted)
 {
-  char names[NAMES_BYTES] = "";
-  size_t used = 0;
+  fg__names names = {0};
   if (!wanted)
     return FG_STATUS_OK;
-  for (size_t i = 0; i < list->count && used < sizeof names; ++i)
-    used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
-                             list->entry[i].block);
+  for (size_t i = 0; i < list->count; ++i)
+    fg__names_add(&names, ", ", "%s", list->entry[i].block);
   size_t kept = 0;
   for (size_t i = 0; i < list->count; ++i)
     keep_or_drop(list, &kept, i, *wanted && is_in(list->entry[i].block, wanted));
@@ -201,7 +201,7 @@ fg_status fg__vtk_names_choose_block(fg__vtk_names *list, fg_context *context,
   if (list->count > 0)
     return FG_STATUS_OK;
   fg__fail(context, FG_STATUS_ARGUMENT, "%s: there is no block \"%.100s\"", path, wanted);
-  fg__hint(context, "the blocks are: %s", names);
+  fg__hint(context, "the blocks are: %s", names.text);
   return FG_STATUS_ARGUMENT;
 }
 
@@ -224,23 +224,39 @@ static bool is_within(const char *name)
   return depth > 0;
 }
 
-/* The path of a file that the file at `path` names. */
+/* The same once links have been followed. A file that cannot be found is left to the
+ * opening of it. */
+static bool is_linked_within(char *path, size_t folder)
+{
+  char file[PATH_MAX], above[PATH_MAX];
+  if (!realpath(path, file))
+    return true;
+  const char kept = path[folder];
+  path[folder] = '\0';
+  const bool found = realpath(folder > 0 ? path : ".", above) != NULL;
+  path[folder] = kept;
+  size_t length = found ? strlen(above) : 0;
+  length -= length == 1; /* the root's own name ends with a slash */
+  return found && strncmp(file, above, length) == 0 && file[length] == '/';
+}
+
 fg_status fg__vtk_names_path(char **out, fg_context *context, const char *path,
                              const char *name)
 {
   const char *slash = strrchr(path, '/');
   const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-  if (!is_within(name)) {
-    fg__fail(context, FG_STATUS_UNSUPPORTED,
-             "%s: names the file \"%.200s\", which is not in its folder or below", path,
-             name);
-    fg__hint(context, "put the files that it names beside it, and name them so");
-    return FG_STATUS_UNSUPPORTED;
-  }
   *out = fg__allocate(folder + strlen(name) + 1, 1);
   if (!*out)
     return fg__fail_memory(context, "a file's name", folder + strlen(name));
   memcpy(*out, path, folder);
   memcpy(*out + folder, name, strlen(name) + 1);
-  return FG_STATUS_OK;
+  if (is_within(name) && is_linked_within(*out, folder))
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_UNSUPPORTED,
+           is_within(name)
+               ? "%s: names the file \"%.200s\", which links lead out of its folder"
+               : "%s: names the file \"%.200s\", which is not in its folder or below",
+           path, name);
+  fg__hint(context, "put the files that it names beside it, and name them so");
+  return FG_STATUS_UNSUPPORTED;
 }

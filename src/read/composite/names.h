@@ -38,8 +38,8 @@ fg_status fg__vtk_names_choose_time(double *time, int *count, double **all,
 fg_status fg__vtk_names_choose_block(fg__vtk_names *names, fg_context *context,
                                      const char *path, const char *wanted);
 
-/* The path of a file that the file at `path` names, in its folder or below by its words;
- * end with free. UNSUPPORTED, MEMORY. */
+/* The path of a file that the file at `path` names, in its folder or below by its words
+ * and by where links lead; end with free, also after a failure. UNSUPPORTED, MEMORY. */
 fg_status fg__vtk_names_path(char **out, fg_context *context, const char *path,
                              const char *name);
 

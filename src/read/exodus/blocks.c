@@ -2,6 +2,7 @@
 #include "read/exodus/exodus.h"
 
 #include "base/memory.h"
+#include "base/names.h"
 
 #include <ctype.h>
 #include <limits.h>
@@ -10,7 +11,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { VERTEX = 1, LINE = 4, NAMES_BYTES = 512 };
+enum { VERTEX = 1, LINE = 4 };
 
 /* The nodes of middles come in another order than VTK's: those of edges upwards before
  * those round the upper end. */
@@ -101,14 +102,12 @@ static fg_status describe_block(fg__exodus_block *block, const fg__exodus *e)
 
 static fg_status fail_name(const fg__exodus *e, const char *wanted, size_t count)
 {
-  char names[NAMES_BYTES] = "";
-  size_t used = 0;
-  for (size_t i = 0; i < count && used < sizeof names; ++i)
-    used += (size_t)snprintf(names + used, sizeof names - used, "%s%.60s", i ? ", " : "",
-                             e->block[i].name);
+  fg__names names = {0};
+  for (size_t i = 0; i < count; ++i)
+    fg__names_add(&names, ", ", "%s", e->block[i].name);
   fg__fail(e->file.context, FG_STATUS_ARGUMENT, "%s: there is no block \"%.100s\"",
            e->file.file[0].path, wanted);
-  fg__hint(e->file.context, "the blocks are: %s", names);
+  fg__hint(e->file.context, "the blocks are: %s", names.text);
   return FG_STATUS_ARGUMENT;
 }
 

@@ -107,7 +107,7 @@ static fg_field *read_mesh(sample_file *f, const fg_read_options *options)
     fail_msg("%s", fg_context_message(f->context));
   assert_int_equal(fg__source_open(&source, f->context, f->path), FG_STATUS_OK);
   assert_slabs_alike(&fg__format_exodus, &source, options, field);
-  fg__source_close(&source);
+  fg__source_close(&source, NULL, FG_STATUS_OK);
   return field;
 }
 

@@ -1,68 +1,62 @@
 /* Choosing the pair, time and level by the options. */
+#include "base/names.h"
 #include "read/grib/grib.h"
 
 #include <stdio.h>
 #include <string.h>
 
-static void list_pairs(const fg__grib_pairs *pairs, char *out, size_t size)
+static fg__names list_pairs(const fg__grib_pairs *pairs)
 {
-  size_t used = 0;
-  out[0] = '\0';
-  for (size_t i = 0; i < pairs->count; ++i) {
-    const fg__grib_pair *pair = &pairs->pair[i];
-    const size_t more = strlen(pair->name[0]) + strlen(pair->name[1]) + 3;
-    if (used + more >= size)
-      return;
-    used += (size_t)snprintf(out + used, size - used, "%s%s,%s", used ? "; " : "",
-                             pair->name[0], pair->name[1]);
-  }
+  fg__names names = {0};
+  for (size_t i = 0; i < pairs->count; ++i)
+    fg__names_add(&names, "; ", "%s,%s", pairs->pair[i].name[0], pairs->pair[i].name[1]);
+  return names;
 }
 
 static void hint_at_pairs(const fg__grib_file *file)
 {
   fg__grib_pairs all;
-  char list[1024];
   if (fg__grib_pairs_find(&all, file) != FG_STATUS_OK)
     return;
-  list_pairs(&all, list, sizeof list);
-  if (list[0])
-    fg__hint(file->context, "pairs in it: %s", list);
+  const fg__names list = list_pairs(&all);
+  if (list.count > 0)
+    fg__hint(file->context, "pairs in it: %s", list.text);
   fg__grib_pairs_clear(&all);
 }
 
-/* ": t, z", each name once. */
-static void list_kinds(const fg__grib_file *file, char *out, size_t size)
+/* "t, z", each name once. */
+static fg__names list_kinds(const fg__grib_file *file)
 {
-  size_t used = 0;
-  out[0] = '\0';
+  fg__names names = {0};
   for (size_t i = 0; i < file->kinds; ++i) {
     const char *name = file->kind[i].name;
     size_t before = 0;
     while (before < i && strcmp(file->kind[before].name, name) != 0)
       ++before;
-    if (before == i && used + strlen(name) + 3 < size)
-      used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : ": ", name);
+    if (before == i)
+      fg__names_add(&names, ", ", "%s", name);
   }
+  return names;
 }
 
 static fg_status fail_none(const fg__grib_file *file, const char *vars)
 {
-  char names[512];
-  list_kinds(file, names, sizeof names);
+  const fg__names names = list_kinds(file);
   if (vars)
     fg__fail(file->context, FG_STATUS_ARGUMENT,
              "%s: has no fields '%s' at a time and level that both have", file->path[0],
              vars);
   else if (file->without_grid > 0)
-    fg__fail(
-        file->context, FG_STATUS_UNSUPPORTED,
-        "%s: no vectors found among its %zu kinds of fields%s; %zu messages more do not "
-        "say their grids",
-        file->path[0], file->kinds, names, file->without_grid);
+    fg__fail(file->context, FG_STATUS_UNSUPPORTED,
+             "%s: no vectors found among its %zu kinds of fields%s%s; %zu messages more "
+             "do not "
+             "say their grids",
+             file->path[0], file->kinds, names.count > 0 ? ": " : "", names.text,
+             file->without_grid);
   else
     fg__fail(file->context, FG_STATUS_UNSUPPORTED,
-             "%s: no vectors found among its %zu kind%s of fields%s", file->path[0],
-             file->kinds, file->kinds == 1 ? "" : "s", names);
+             "%s: no vectors found among its %zu kind%s of fields: %s", file->path[0],
+             file->kinds, file->kinds == 1 ? "" : "s", names.text);
   if (vars)
     hint_at_pairs(file);
   else
@@ -73,12 +67,11 @@ static fg_status fail_none(const fg__grib_file *file, const char *vars)
 
 static fg_status fail_ambiguous(const fg__grib_file *file, const fg__grib_pairs *pairs)
 {
-  char list[1024];
-  list_pairs(pairs, list, sizeof list);
+  const fg__names list = list_pairs(pairs);
   fg_status status =
       fg__fail(file->context, FG_STATUS_ARGUMENT,
                "%s: holds %zu vectors, and it is not clear which is meant: %s",
-               file->path[0], pairs->count, list);
+               file->path[0], pairs->count, list.text);
   fg__hint(file->context, "choose one with --vars U,V");
   return status;
 }

@@ -10,13 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void close_file(fg__grib_file *file)
+static fg_status close_file(fg__grib_file *file, fg_status status)
 {
   if (file->count > 1)
-    fg__source_close(&file->source[1]);
+    status = fg__source_close(&file->source[1], file->context, status);
   free(file->field);
   free(file->about);
   free(file->kind);
+  return status;
 }
 
 static fg_status open_second(fg__grib_file *file, const char *path)
@@ -237,11 +238,11 @@ static fg_status open_pair(opened *o, fg_context *context, const fg__source *sou
   return status;
 }
 
-static void close_pair(opened *o)
+static fg_status close_pair(opened *o, fg_status status)
 {
   fg__grib_grid_clear(&o->grid);
   fg__grib_pairs_clear(&o->pairs);
-  close_file(&o->file);
+  return close_file(&o->file, status);
 }
 
 static fg_status read_field(fg_field **out, fg_context *context, const fg__source *source,
@@ -263,8 +264,7 @@ static fg_status read_field(fg_field **out, fg_context *context, const fg__sourc
     status = make_field(out, &o.file, o.pairs.pair, &o.grid, velocity, options, slab);
   free(velocity[0]);
   free(velocity[1]);
-  close_pair(&o);
-  return status;
+  return close_pair(&o, status);
 }
 
 /* Grids whose rows are along no axes; *out stays NULL for others. */
@@ -296,8 +296,7 @@ static fg_status read_sphere(fg__sphere **out, fg_context *context,
     status = fg__sphere_of_cells(out, context, &cells);
   free(velocity[0]);
   free(velocity[1]);
-  close_pair(&o);
-  return status;
+  return close_pair(&o, status);
 }
 
 /* Where points on the sphere lie, longitudes within a turn round the first one. */
@@ -448,8 +447,7 @@ static fg_status describe(fg_inventory *inventory, fg_context *context,
       status = fg__check_stop(context);
   }
   fg__grib_pairs_clear(&pairs);
-  close_file(&file);
-  return status;
+  return close_file(&file, status);
 }
 
 static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
@@ -463,8 +461,7 @@ static fg_status describe_chosen(fg_inventory *inventory, fg_context *context,
   if (status == FG_STATUS_OK)
     status = describe_pair(inventory, &file, pairs.pair, false);
   fg__grib_pairs_clear(&pairs);
-  close_file(&file);
-  return status;
+  return close_file(&file, status);
 }
 
 const fg__format fg__format_grib = {.name = "GRIB",

@@ -1,3 +1,4 @@
+#include "decode/signature.h"
 #include "read/grib/sample.h"
 
 static const char U[] = "indicatorOfParameter=33,table2Version=2",
@@ -312,6 +313,66 @@ static void fields_without_a_pair_are_named(void **state)
               "no vectors found among its 2 kinds of fields: u, w");
 }
 
+/* A heading of `size` bytes before the messages: bytes of `text` over and over. */
+static void put_heading(const grib_file *f, const char *text, size_t size)
+{
+  static unsigned char bytes[1 << 16];
+  FILE *stream = fopen(f->path, "rb");
+  const size_t messages = fread(bytes + size, 1, sizeof bytes - size, stream);
+  fclose(stream);
+  for (size_t n = 0; n < size; ++n)
+    bytes[n] = (unsigned char)text[n % strlen(text)];
+  stream = fopen(f->path, "wb");
+  fwrite(bytes, 1, size + messages, stream);
+  assert_int_equal(fclose(stream), 0);
+}
+
+/* Of bulletins in ASCII and in EBCDIC, of archives; with the letters in it, too. */
+static void headings_are_skipped(void **state)
+{
+  static const struct {
+    const char *text;
+    size_t size;
+    bool found;
+  } rows[] = {
+      {"\001\r\r\n024\r\r\nHTXA99 KWBC 130000\r\r\n", 33, true},
+      {"\xC8\xE3\xE7\xC1\xF9\xF9\x40\xD2\xE6\xC2\xC3\x40\xF1\xF3", 42, true},
+      {"\xC8\xE3\xE7\xC1\xF9\xF9\x40\xD2\xE6\xC2\xC3\x40\xF1\xF3", 3000, true},
+      {"ETA MODEL, GRIB EDITION 1; ", 1500, true},
+      {"GRIB\xff\xff\xff\007", 400, false}, /* edition 7 at the first byte */
+      {"\xC7\xD9\xC9\xC2", 16383, true},
+      {"\xC7\xD9\x02\xC2", 16384, false},
+  };
+  grib_file *f = *state;
+  for (size_t n = 0; n < 2 * sizeof rows / sizeof *rows; ++n) {
+    unlink(f->path);
+    grib_add(f, n % 2 ? "regular_ll_pl_grib1" : "regular_ll_pl_grib2", "", 0,
+             "bitsPerValue=16", n % 2 ? U : WIND_U, n % 2 ? V : WIND_V, NULL);
+    put_heading(f, rows[n / 2].text, rows[n / 2].size);
+    if (rows[n / 2].found)
+      fg_field_destroy(grib_read(f, NULL));
+    else
+      grib_refuse(f, NULL,
+                  rows[n / 2].size == 400 ? FG_STATUS_UNSUPPORTED : FG_STATUS_FILE_FORMAT,
+                  rows[n / 2].size == 400 ? "edition 7" : "unknown format");
+  }
+}
+
+/* Letters alone are no message. */
+static void what_only_names_grib_is_none(void **state)
+{
+  static const char *const texts[] = {"# of a GRIB file\nx,y,u,v\n1,1,1,1\n",
+                                      "\xff GRIB\001\001\001\003 and no length",
+                                      "\xff GRIB\001\001\001\002 and \001 no length"};
+  for (size_t n = 0; n < sizeof texts / sizeof *texts; ++n)
+    assert_false(fg__is_grib((const unsigned char *)texts[n], strlen(texts[n])));
+  static const unsigned char short_1[24] = "\xff GRIB\0\0\062\001",
+                             short_2[24] = "\xff GRIB\0\0\0\002\0\0\0\0\0\0\0\050";
+  assert_false(fg__is_grib(short_1, sizeof short_1));
+  assert_false(fg__is_grib(short_2, sizeof short_2));
+  (void)state;
+}
+
 /* Both components in one message; and without its last bytes, or those between. */
 static void a_message_of_two_fields(void **state)
 {
@@ -385,6 +446,8 @@ int main(void)
       CASE(a_longitude_latitude_grid), CASE(a_gaussian_grid),
       CASE(grids_on_the_sphere),       CASE(projected_grids),
       CASE(times_and_levels),          CASE(fields_without_a_pair_are_named),
+      CASE(times_and_levels),          CASE(headings_are_skipped),
+      CASE(times_and_levels),          CASE(what_only_names_grib_is_none),
       CASE(a_message_of_two_fields),   CASE(missing_values),
   };
   return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);

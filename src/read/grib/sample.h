@@ -174,7 +174,7 @@ static inline fg_field *grib_read(grib_file *f, const fg_read_options *options)
   fg__source source;
   if (fg__source_open(&source, NULL, f->path) == FG_STATUS_OK)
     assert_slabs_alike(&fg__format_grib, &source, options ? options : &none, field);
-  fg__source_close(&source);
+  fg__source_close(&source, NULL, FG_STATUS_OK);
   return field;
 }
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* What may stand before, between and behind messages: headings of telecommunication. */
+/* What may stand between and behind messages: headings of telecommunication. */
 enum { MOST_HEADING = 256 };
 
 enum { SHORTEST_1 = 8 + 28 + 11 + 4, SHORTEST_2 = 16 + 21 + 4 };
@@ -200,14 +200,19 @@ static fg_status scan_message(scan *s)
 /* Skips zeros and headings up to the next message. */
 static fg_status find_message(scan *s)
 {
-  size_t heading = 0;
-  for (; s->at < s->size && !fg__is_grib_start(s->bytes + s->at, s->size - s->at);
-       ++s->at)
-    if (s->bytes[s->at] != 0 && ++heading > MOST_HEADING)
+  const int most = s->number == 0 ? FG__GRIB_WITHIN : MOST_HEADING;
+  int heading = 0;
+  for (; s->at < s->size; ++s->at) {
+    const unsigned char *at = s->bytes + s->at;
+    if ((s->number == 0 && heading > 0 ? fg__is_grib_message : fg__is_grib_start)(
+            at, s->size - s->at)) /* the first heading may have the letters */
+      return FG_STATUS_OK;
+    if (*at != 0 && ++heading > most)
       return fg__fail(s->file->context, FG_STATUS_FILE_FORMAT,
                       "%s: more than %d bytes before byte %zu are no part of a message, "
                       "after %zu messages",
-                      s->path, MOST_HEADING, s->at, s->number);
+                      s->path, most, s->at, s->number);
+  }
   return FG_STATUS_OK;
 }
 

@@ -10,6 +10,10 @@ fg_status fg_image_read(fg_image **out, fg_context *context, const char *path)
   if (status)
     return status;
   status = fg__image_read(out, context, &source);
-  fg__source_close(&source);
+  status = fg__source_close(&source, context, status);
+  if (status) {
+    fg_image_destroy(*out);
+    *out = NULL;
+  }
   return status;
 }

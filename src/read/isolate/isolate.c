@@ -44,7 +44,7 @@ static void add_file(fg__isolation *out, const char *path)
   if (path && fg__source_open(&source, NULL, path) == FG_STATUS_OK)
     add_source(out, &source);
   if (path)
-    fg__source_close(&source);
+    fg__source_close(&source, NULL, FG_STATUS_OK);
 }
 
 void fg__isolation_find(fg__isolation *out, const fg_input *input)
@@ -143,6 +143,9 @@ static fg_status complain(fg_context *context, const fg_input *input)
     return fg__fail(context, FG_STATUS_FILE_ACCESS,
                     "%s: damaged: reading it takes more than %u s", name,
                     isolation->seconds);
+  if (isolation->signal == SIGBUS)
+    return fg__fail(context, FG_STATUS_FILE_ACCESS,
+                    "%s: became shorter while it was read, or its disk failed", name);
   return fg__fail(context, FG_STATUS_FILE_ACCESS,
                   "%s: damaged: the %s library does not survive reading it (signal %d)",
                   name, isolation->library, isolation->signal);

@@ -1,4 +1,4 @@
-/* Chunks that inflate to more than their declared size. */
+/* Chunks that inflate to more than their declared size, and many small ones. */
 #define H5_USE_110_API
 #include <hdf5.h>
 #include <stdlib.h>
@@ -100,6 +100,43 @@ static void chunks_that_swell_are_refused(void **state)
 }
 
 /* The check of inflated sizes handles one stage of deflate. */
+/* Of few samples each, which are read a thousand at a time: along the first dimension of
+ * more than one sample, from the middle of a chunk on. */
+static void small_chunks_are_read(void **state)
+{
+  enum { TALL = 61, WIDE = 77, ALL = TALL * WIDE };
+  static const size_t shapes[][3] = {
+      {1, 1, 1}, {1, 3, 2}, {1, 40, 1}, {1, 1, 77}, {2, 7, 1}};
+  static const char *const names[] = {"u", "v"};
+  sample_file *f = *state;
+  static double value[2][2 * ALL];
+  for (int n = 0; n < 2 * ALL; ++n) {
+    value[0][n] = 1.0 + n;
+    value[1][n] = 0.5 * n - 7.0;
+  }
+  for (size_t s = 0; s < 2 * sizeof shapes / sizeof *shapes; ++s) {
+    sample_begin(f, NC_NETCDF4);
+    const int all[3] = {sample_dimension(f, "time", 2), sample_dimension(f, "y", TALL),
+                        sample_dimension(f, "x", WIDE)};
+    for (int k = 0; k < 2; ++k) {
+      const int id = sample_variable(f, names[k], NC_DOUBLE, 3, all);
+      nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, shapes[s / 2]));
+      nc_must(nc_def_var_deflate(f->id, id, 0, (int)(s % 2), 1));
+      nc_must(nc_put_var_double(f->id, id, value[k]));
+    }
+    sample_end(f);
+    fg_field *field = read_with(f, &(fg_read_options){.time = 1});
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_int_equal(a->size[0], WIDE);
+    assert_int_equal(a->size[1], TALL);
+    for (int k = 0; k < 2; ++k)
+      for (int n = 0; n < ALL; ++n)
+        if (a->velocity[k][n] != (float)value[k][ALL + n])
+          fail_msg("shape %zu, component %d, sample %d", s, k, n);
+    fg_field_destroy(field);
+  }
+}
+
 static void deflate_twice_is_refused(void **state)
 {
   sample_file *f = *state;
@@ -131,6 +168,8 @@ int main(void)
       cmocka_unit_test_setup_teardown(chunks_that_swell_are_refused, sample_set_up,
                                       sample_tear_down),
       cmocka_unit_test_setup_teardown(deflate_twice_is_refused, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(small_chunks_are_read, sample_set_up,
                                       sample_tear_down),
   };
   return cmocka_run_group_tests_name("read/netcdf/chunks", tests, NULL, NULL);

@@ -1,8 +1,9 @@
-/* NetCDF-4 files with cyclic or external links, or that declare more memory than they
- * hold. */
+/* NetCDF-4 files with cyclic or external links, that declare more memory than they hold,
+ * or have names or numbers of objects beyond all that libnetcdf was made for. */
 #define H5_USE_110_API
 #include <hdf5.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <zlib.h>
 
@@ -181,6 +182,90 @@ static void overlong_chunks_are_refused(void **state)
   free(packed);
 }
 
+/* Names as long as NetCDF's may be and longer, of all that has one. */
+static void long_names_are_refused(void **state)
+{
+  enum { DATA_SET, GROUP, TYPE, ATTRIBUTE, LINK, KINDS };
+  static const size_t lengths[] = {255, 256, 257, 4000};
+  sample_file *f = *state;
+  const hid_t space = H5Screate(H5S_SCALAR);
+  char name[4001], words[64];
+  for (int n = 0; n < 4 * KINDS; ++n) {
+    const size_t length = lengths[n / KINDS];
+    memset(name, 'n', length);
+    name[length] = '\0';
+    const hid_t file = begin(f);
+    hid_t made = -1;
+    if (n % KINDS == DATA_SET)
+      made = H5Dcreate2(file, name, H5T_NATIVE_FLOAT, space, H5P_DEFAULT, H5P_DEFAULT,
+                        H5P_DEFAULT);
+    else if (n % KINDS == GROUP)
+      made = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    else if (n % KINDS == ATTRIBUTE)
+      made = H5Acreate_by_name(file, "v", name, H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
+                               H5P_DEFAULT, H5P_DEFAULT);
+    if (n % KINDS == TYPE) {
+      made = H5Tcreate(H5T_COMPOUND, sizeof(float));
+      must(H5Tinsert(made, "a", 0, H5T_NATIVE_FLOAT));
+      must(H5Tcommit2(file, name, made, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    } else if (n % KINDS == LINK) {
+      must(H5Lcreate_soft("/u", file, name, H5P_DEFAULT, H5P_DEFAULT));
+    } else {
+      must(made);
+    }
+    if (made >= 0)
+      H5Idec_ref(made);
+    snprintf(words, sizeof words, "nnn...' is a name of %zu bytes", length);
+    if (length >= 256) {
+      refused(f, file, words);
+      continue;
+    }
+    must(H5Fclose(file));
+    fg_field_destroy(read_with(f, &(fg_read_options){.vars = "u,v"}));
+  }
+  H5Sclose(space);
+}
+
+static void add_attributes(hid_t file, const char *to, int count)
+{
+  const hid_t space = H5Screate(H5S_SCALAR), object = H5Oopen(file, to, H5P_DEFAULT);
+  must(object);
+  for (int n = 0; n < count; ++n) {
+    char name[16];
+    snprintf(name, sizeof name, "a%d", n);
+    const hid_t attribute =
+        H5Acreate2(object, name, H5T_NATIVE_INT, space, H5P_DEFAULT, H5P_DEFAULT);
+    must(attribute);
+    H5Aclose(attribute);
+  }
+  H5Oclose(object);
+  H5Sclose(space);
+}
+
+static void thousands_of_attributes_or_groups_are_refused(void **state)
+{
+  sample_file *f = *state;
+  hid_t file = begin(f);
+  add_attributes(file, "v", 8200);
+  refused(f, file, "attributes; 8192 can be read");
+  file = begin(f);
+  add_attributes(file, "/", 8200);
+  refused(f, file, "'/' has 8201 attributes; 8192 can be read");
+  file = begin(f);
+  for (int n = 0; n < 8200; ++n) {
+    char name[16];
+    snprintf(name, sizeof name, "g%d", n);
+    const hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    must(group);
+    H5Gclose(group);
+  }
+  refused(f, file, "has more than 8192 groups and variables");
+  file = begin(f);
+  add_attributes(file, "v", 300);
+  must(H5Fclose(file));
+  fg_field_destroy(read_with(f, NULL));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -194,6 +279,10 @@ int main(void)
                                       sample_tear_down),
       cmocka_unit_test_setup_teardown(overlong_chunks_are_refused, sample_set_up,
                                       sample_tear_down),
+      cmocka_unit_test_setup_teardown(long_names_are_refused, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(thousands_of_attributes_or_groups_are_refused,
+                                      sample_set_up, sample_tear_down),
   };
   return cmocka_run_group_tests_name("read/netcdf/objects", tests, NULL, NULL);
 }

@@ -132,7 +132,7 @@ static inline void assert_slabs_of_file(const sample_file *f,
   if (fg__source_open(&source, NULL, f->path) != FG_STATUS_OK)
     return;
   assert_slabs_alike(&fg__format_netcdf, &source, options ? options : &none, whole);
-  fg__source_close(&source);
+  fg__source_close(&source, NULL, FG_STATUS_OK);
 }
 
 static inline fg_field *read_with(sample_file *f, const fg_read_options *options)

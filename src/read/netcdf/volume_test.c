@@ -249,7 +249,7 @@ static void names_choose_between_plane_and_volume(void **state)
   refuse_with(f, &(fg_read_options){.vars = "u,v,u"}, FG_STATUS_ARGUMENT,
               "two components are 'u'");
   refuse_with(f, &(fg_read_options){.vars = "u,v,omega"}, FG_STATUS_ARGUMENT, "omega");
-  static const char *const wrong[] = {"u", "u,", ",v", "u,v,", "u,,w", "u,v,w,x", ","};
+  static const char *const wrong[] = {"u", "u,", ",v", "u,v,", "u,,w", "u,v,w,x,y", ","};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i)
     refuse_with(f, &(fg_read_options){.vars = wrong[i]}, FG_STATUS_ARGUMENT,
                 "two or three ");

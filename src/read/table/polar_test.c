@@ -83,7 +83,7 @@ static void units_are_those_of_the_speed(void **state)
   fg_field *field =
       read_with(*state, write_rows(text, "lon,lat,wind speed (kt),wind dir (deg),t2"),
                 &(fg_read_options){.vars = "wind dir,wind speed"});
-  assert_string_equal(fg_field_contents(field)->velocity_units, "kt");
+  assert_string_equal(fg_field_contents(field)->velocity_units, "kn");
   check_turned(field, -1.0);
 }
 
@@ -155,15 +155,15 @@ static void halves_are_refused(void **state)
     const char *words, *hint;
   } refused[] = {
       {"lon,lat,wind_speed,wind_direction,t2", "t2,wind_speed", FG_STATUS_ARGUMENT,
-       "wind_speed is a speed, and t2 is no direction",
+       "'wind_speed' is a speed, and 't2' is no direction",
        "--vars wind_speed,wind_direction"},
       {"x,y,speed,direction,t2", "speed,direction", FG_STATUS_UNSUPPORTED,
-       "speed and direction are a length and its direction, which are read with longitude "
-       "and latitude only",
-       "components u and v first"},
+       "'direction' is a direction from north, and where north lies on its grid is not "
+       "known",
+       "read with longitude and latitude"},
       {"lon,lat,wind_speed,wind_dir (10s deg),t2", "wind_speed,wind_dir",
-       FG_STATUS_UNSUPPORTED,
-       "the direction wind_dir is in '10s deg', not in degrees or radians", ""},
+       FG_STATUS_UNSUPPORTED, "the direction 'wind_dir' is not in degrees or radians",
+       ""},
   };
   char text[2048];
   for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {

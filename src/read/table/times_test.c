@@ -20,10 +20,10 @@ static void times_are_chosen(void **state)
       "time,x,y,u,v\n1,1.5,10,11.5,-.25\n2,2.5,10,12.5,-.25\n3,3.5,10,13.5,-.25\n"
       "4,1.5,20,21.5,-.25\n5,2.5,20,22.5,-.25\n6,3.5,20,23.5,-.25\n"};
   fg_field *field = read_text(*state, several);
-  assert_string_equal(fg_field_contents(field)->time, "t = 0.5");
+  assert_string_equal(fg_field_contents(field)->time, "t 0.5");
   check_small(field, -1);
   field = read_with(*state, several, &(fg_read_options){.time = 1});
-  assert_string_equal(fg_field_contents(field)->time, "t = 2");
+  assert_string_equal(fg_field_contents(field)->time, "t 2");
   for (int n = 0; n < 6; ++n)
     assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
   fg_field_destroy(field);
@@ -34,7 +34,7 @@ static void times_are_chosen(void **state)
                                          &(fg_read_options){.time = 2},
                                          (fg__slab_index){0, 1}),
                    FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "there are 2"));
+  assert_non_null(strstr(fg_context_message(*state), "'t' has 2: 0 to 1"));
   fg_context_clear(*state);
 }
 
@@ -77,10 +77,10 @@ static void levels_are_told_by_their_scatter(void **state)
     int rows;
     bool side_by_side;
     int levels;
-    const char *found_by;
-  } cases[] = {{8, false, 2, "names"},
-               {7, false, 1, "names; rows of every height, 0 to 100"},
-               {8, true, 1, "names; rows of every height, 0 to 100"}};
+    const char *told; /* of the rows; NULL: nothing */
+  } cases[] = {{8, false, 2, NULL},
+               {7, false, 1, "rows of every height, 0 to 100, are one field"},
+               {8, true, 1, "rows of every height, 0 to 100, are one field"}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
     char text[1024];
     write_soundings(text, sizeof text, cases[i].rows, cases[i].side_by_side);
@@ -91,7 +91,8 @@ static void levels_are_told_by_their_scatter(void **state)
                      FG_STATUS_OK);
     const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
     assert_int_equal(v->levels, cases[i].levels);
-    assert_string_equal(v->found_by, cases[i].found_by);
+    assert_int_equal(v->doubts != NULL, cases[i].told != NULL);
+    assert_true(!cases[i].told || strcmp(v->doubts, cases[i].told) == 0);
     fg_inventory_destroy(inventory);
   }
 }
@@ -104,7 +105,7 @@ static void levels_are_chosen(void **state)
       "2.5,20,5,0,50\n3.5,20,6,0,50\n1.5,10,11.5,-.25,5\n2.5,10,12.5,-.25,5\n"
       "3.5,10,13.5,-.25,5\n1.5,20,21.5,-.25,5\n2.5,20,22.5,-.25,5\n3.5,20,23.5,-.25,5\n";
   fg_field *field = read_text(*state, text);
-  assert_string_equal(fg_field_contents(field)->level, "depth = 5 m");
+  assert_string_equal(fg_field_contents(field)->level, "depth 5 m");
   check_small(field, -1);
   field = read_with(*state, text, &(fg_read_options){.level = 1});
   for (int n = 0; n < 6; ++n)
@@ -123,7 +124,7 @@ static void levels_are_chosen(void **state)
                                          &(fg_read_options){.level = 2},
                                          (fg__slab_index){0, 1}),
                    FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "level 2 is asked for"));
+  assert_non_null(strstr(fg_context_message(*state), "level 2 asked for"));
   fg_context_clear(*state);
 }
 

@@ -1,5 +1,6 @@
 /* Which arrays of a file are the vectors. */
 #include "base/memory.h"
+#include "base/names.h"
 #include "read/vtk/vtk.h"
 #include "terms/vectors.h"
 
@@ -198,25 +199,25 @@ static const fg__vtk_array *find_anywhere(const fg__vtk *vtk, const char *name)
   return array ? array : fg__vtk_find(vtk, 0, FG__VTK_CELLS, name);
 }
 
-static void list_names(char *text, size_t size, const fg__vtk *vtk)
+static fg__names list_names(const fg__vtk *vtk)
 {
-  size_t arrays, used = 0;
+  size_t arrays;
+  fg__names names = {0};
   const fg__vtk_array *array = arrays_of_file(vtk, &arrays);
-  snprintf(text, size, "none");
-  for (size_t i = 0; i < arrays && used < size; ++i, ++array)
+  for (size_t i = 0; i < arrays; ++i, ++array)
     if (array->place != FG__VTK_CELLS ||
         !fg__vtk_find(vtk, 0, FG__VTK_POINTS, array->name))
-      used += (size_t)snprintf(text + used, size - used, "%s%.100s", used ? ", " : "",
-                               array->name);
+      fg__names_add(&names, ", ", "%s", array->name);
+  if (names.count == 0)
+    fg__names_add(&names, ", ", "none");
+  return names;
 }
 
 fg_status fg__vtk_fail_unknown(const fg__vtk *vtk, const char *name)
 {
-  char names[512];
-  list_names(names, sizeof names, vtk);
   fg_status status = fg__fail(vtk->context, FG_STATUS_ARGUMENT,
                               "%s: there is no variable \"%.100s\"", vtk->path, name);
-  fg__hint(vtk->context, "the variables are: %s", names);
+  fg__hint(vtk->context, "the variables are: %s", list_names(vtk).text);
   return status;
 }
 
@@ -289,15 +290,15 @@ static void describe(char *text, size_t size, const fg__vtk_vector *vector)
 static fg_status fail_ambiguous(const fg__vtk *vtk, const fg__vtk_vector *vectors,
                                 size_t count)
 {
-  char all[1024] = "", one[256];
+  char one[256];
+  fg__names all = {0};
   for (size_t i = 0; i < count; ++i) {
     describe(one, sizeof one, &vectors[i]);
-    size_t used = strlen(all);
-    snprintf(all + used, sizeof all - used, "%s%s", used ? " | " : "", one);
+    fg__names_add(&all, " | ", "%s", one);
   }
   fg_status status =
       fg__fail(vtk->context, FG_STATUS_ARGUMENT, "%s: %zu vectors could be meant: %s",
-               vtk->path, count, all);
+               vtk->path, count, all.text);
   describe(one, sizeof one, &vectors[0]);
   fg__hint(vtk->context, "choose one: --vars %s", one);
   return status;
@@ -305,10 +306,9 @@ static fg_status fail_ambiguous(const fg__vtk *vtk, const fg__vtk_vector *vector
 
 static fg_status fail_none(const fg__vtk *vtk)
 {
-  char names[512];
-  list_names(names, sizeof names, vtk);
   return fg__fail(vtk->context, FG_STATUS_UNSUPPORTED,
-                  "%s: holds no vectors; its variables: %s", vtk->path, names);
+                  "%s: holds no vectors; its variables: %s", vtk->path,
+                  list_names(vtk).text);
 }
 
 static fg_status choose_among(fg__vtk_vector *out, const fg__vtk *vtk,

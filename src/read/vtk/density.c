@@ -161,8 +161,7 @@ fg_status fg__density_file_read(fg__density_file *out, fg_context *context,
   fg__vtk_values_clear(&r.u);
   fg__vtk_values_clear(&r.cluster);
   fg__vtk_values_clear(&r.ghost);
-  fg__vtk_close(&r.vtk);
-  return status;
+  return fg__vtk_close(&r.vtk, status);
 }
 
 void fg__density_file_clear(fg__density_file *file)

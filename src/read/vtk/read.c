@@ -217,8 +217,7 @@ fg_status fg__vtk_read(fg_field **out, fg_context *context, const fg__source *so
   if (status == FG_STATUS_OK)
     status = build(out, &vtk, &grid, &vector, options, slab);
   free(names);
-  fg__vtk_close(&vtk);
-  return status;
+  return fg__vtk_close(&vtk, status);
 }
 
 /* What can only be decoded together is so once, not again for each of its parts. */
@@ -367,8 +366,7 @@ fg_status fg__vtk_inventory(fg_inventory *inventory, fg_context *context,
   free(times);
   free(words);
   free(vectors);
-  fg__vtk_close(&vtk);
-  return status;
+  return fg__vtk_close(&vtk, status);
 }
 
 FG__VTK_HOOKS(fg__vtk_open_any)

@@ -130,6 +130,5 @@ fg_status fg__tensors_of_vtk(fg_field *row[2], bool *found, fg_context *context,
                       vtk.path);
   else if (array)
     status = make_rows(row, &vtk, array);
-  fg__vtk_close(&vtk);
-  return status;
+  return fg__vtk_close(&vtk, status);
 }

@@ -2,6 +2,7 @@
 #include "read/vtk/vtk.h"
 
 #include "base/memory.h"
+#include "base/utf8.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ fg_status fg__vtk_add_array(fg__vtk_array **out, fg__vtk *vtk, const char *name,
   vtk->arrays = arrays;
   fg__vtk_array *array = &vtk->arrays[vtk->array_count++];
   *array = (fg__vtk_array){.place = place, .components = 1};
-  array->name = fg__copy_text(name);
+  array->name = fg__utf8_copy(name);
   if (!array->name)
     return fg__fail_memory(vtk->context, "an array's name", strlen(name) + 1);
   *out = array;
@@ -59,7 +60,7 @@ fg_status fg__vtk_end_piece(fg__vtk *vtk)
   return FG_STATUS_OK;
 }
 
-void fg__vtk_close(fg__vtk *vtk)
+fg_status fg__vtk_close(fg__vtk *vtk, fg_status status)
 {
   for (size_t i = 0; i < vtk->array_count; ++i) {
     free(vtk->arrays[i].name);
@@ -77,9 +78,9 @@ void fg__vtk_close(fg__vtk *vtk)
   for (size_t i = 0; i < vtk->file_count; ++i) {
     fg__vtk_file *file = &vtk->files[i];
     if (file->vtk)
-      fg__vtk_close(file->vtk);
+      (void)fg__vtk_close(file->vtk, status);
     free(file->vtk);
-    fg__source_close(&file->source);
+    status = fg__source_close(&file->source, vtk->context, status);
     free(file->path);
   }
   free(vtk->files);
@@ -87,6 +88,7 @@ void fg__vtk_close(fg__vtk *vtk)
   if (vtk->document)
     xmlFreeDoc(vtk->document);
   *vtk = (fg__vtk){0};
+  return status;
 }
 
 const fg__vtk_array *fg__vtk_find(const fg__vtk *vtk, size_t piece, fg__vtk_place place,

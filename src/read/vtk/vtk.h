@@ -168,7 +168,8 @@ static inline const fg__vtk *fg__vtk_home(const fg__vtk *vtk, size_t piece)
   return file ? file : vtk;
 }
 
-void fg__vtk_close(fg__vtk *vtk);
+/* Returns `status`, or fg__source_check of the files that it names. */
+fg_status fg__vtk_close(fg__vtk *vtk, fg_status status);
 
 /* Adds an array of one component and unknown type, named by a copy of `name`. *out is
  * borrowed until the next is added. */

@@ -1,10 +1,9 @@
-/* Samples where lines along the axes cross, as a field or in an inventory. */
+/* Samples where lines along the axes cross, as a field. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-#include "interpret/inventory.h"
 #include "sample/points/points.h"
 
 /* Of a step: longitudes that go round end within so much of where they began. */
@@ -114,26 +113,4 @@ fg_status fg__point_grid_field(fg_field **out, fg_context *context, fg__point_gr
             (size_t)rows.held * row * sizeof(float));
   }
   return fg__field_of_rows(out, context, &arrays, grid->velocity, &slab);
-}
-
-fg_status fg__scatter_describe(fg_inventory *inventory, fg_context *context,
-                               const fg_field *field, fg_inventory_vector vector)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  size_t samples = 1, missing = 0;
-  for (int k = 0; k < a->dimension && k < 3; ++k) {
-    samples *= (size_t)a->size[k];
-    vector.size[k] = a->size[k];
-    vector.bounds[2 * k] = a->axis[k][0];
-    vector.bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
-    vector.periodic[k] = a->period[k] > 0.0;
-  }
-  for (size_t n = 0; n < samples && a->valid; ++n)
-    missing += !a->valid[n];
-  vector.dimension = vector.components = a->dimension;
-  vector.times = vector.times > 0 ? vector.times : 1;
-  vector.levels = vector.levels > 0 ? vector.levels : 1;
-  vector.missing_share = (double)missing / (double)samples;
-  vector.scale = a->scale;
-  return fg__inventory_add(inventory, context, &vector);
 }

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "field/plane.h"
-#include "file/number_text.h"
 #include "sample/points/points.h"
 
 /* Of the points' width: those so near to a plane are in it; and of their coordinates, for
@@ -105,12 +105,10 @@ static void name_level(fg__flat_words *words, const fg__scatter *points, int acr
 {
   static const char *const letters[] = {"x", "y", "z"};
   char number[FG__NUMBER_BYTES];
-  fg__number_locale locale;
   const char *name = words->all.axis_name[across], *units = words->all.axis_units[across];
-  if (words->all.level || !fg__number_locale_begin(&locale))
+  if (words->all.level)
     return;
   fg__number_write(number, points->position[across][0]);
-  fg__number_locale_end(&locale);
   snprintf(words->level, sizeof words->level, "%.60s = %s%s%.40s",
            name && name[0] ? name : letters[across], number, units && units[0] ? " " : "",
            units ? units : "");

@@ -12,11 +12,6 @@
 /* The largest share of points that may have another value than one at the same place. */
 static const double FEW = 0.1;
 
-/* A time or level has at least so many points, and their mean square distance to their
- * centroid is at least this share of that of all points. */
-enum { MANY = 8 };
-static const double WIDELY = 0.5;
-
 /* Longitudes are cut in a gap of at least so many degrees, else where their values end.
  */
 static const double WIDE_GAP = 30.0;
@@ -30,8 +25,6 @@ void fg__scatter_clear(fg__scatter *points)
     free(points->position[k]);
     free(points->velocity[k]);
   }
-  free(points->time);
-  free(points->level);
   free(points->record);
   *points = (fg__scatter){0};
 }
@@ -184,10 +177,6 @@ static void keep(fg__scatter *points, const unsigned char *is_kept)
     }
     if (points->record)
       points->record[kept] = points->record[i];
-    if (points->time)
-      points->time[kept] = points->time[i];
-    if (points->level)
-      points->level[kept] = points->level[i];
     ++kept;
   }
   points->count = kept;
@@ -241,121 +230,6 @@ static fg_status merge_doubled(fg__scatter *points)
   return status;
 }
 
-/* A point's time or level. */
-typedef struct valued_point {
-  double value;
-  size_t point;
-} valued_point;
-
-static int by_value(const void *a, const void *b)
-{
-  const valued_point *x = a, *y = b;
-  return x->value < y->value   ? -1
-         : x->value > y->value ? 1
-                               : (x->point > y->point) - (x->point < y->point);
-}
-
-/* Sum of the squared distances of `count` points to their mean, along the axes. */
-static void add_squares(double sum[3], const fg__scatter *points,
-                        const valued_point *first, size_t count)
-{
-  for (int k = 0; k < points->dimension && k < 3; ++k) {
-    const double *at = points->position[k];
-    double mean = 0.0;
-    for (size_t i = 0; i < count; ++i)
-      mean += at[first[i].point] / (double)count;
-    for (size_t i = 0; i < count; ++i)
-      sum[k] += (at[first[i].point] - mean) * (at[first[i].point] - mean);
-  }
-}
-
-/* Whether each value is that of MANY points or more, which are scattered like all of
- * them: particles that move, balloons that are read at some heights. A ship's places of
- * one hour are not. `sorted` ascends by value. */
-static bool is_overlaid(const fg__scatter *points, const valued_point *sorted)
-{
-  double within[3] = {0.0}, all[3] = {0.0};
-  for (size_t i = 0, end; i < points->count; i = end) {
-    for (end = i + 1; end < points->count && sorted[end].value <= sorted[i].value;)
-      ++end;
-    if (end - i < MANY)
-      return false;
-    add_squares(within, points, sorted + i, end - i);
-  }
-  add_squares(all, points, sorted, points->count);
-  for (int k = 0; k < points->dimension && k < 3; ++k)
-    if (!(within[k] >= WIDELY * all[k]))
-      return false;
-  return true;
-}
-
-/* How many points lie where another does. */
-static fg_status count_doubled(size_t *out, const fg__scatter *points)
-{
-  spot *spots = NULL;
-  const fg_status status = sort_spots(&spots, points);
-  *out = 0;
-  for (size_t i = 1; i < points->count && status == FG_STATUS_OK; ++i)
-    *out += is_same_place(&spots[i - 1], &spots[i]);
-  free(spots);
-  return status;
-}
-
-/* The distinct times or levels of the points, ascending. */
-static fg_status find_values(double **out, size_t *values, const fg__scatter *points,
-                             const double *value)
-{
-  const size_t count = points->count;
-  *values = 1;
-  for (size_t i = 0; i < count; ++i)
-    if (!isfinite(value[i]))
-      return FG_STATUS_OK;
-  valued_point *sorted = fg__allocate(count, sizeof *sorted);
-  if (!sorted)
-    return fg__fail_memory(points->context, "times", count * sizeof *sorted);
-  for (size_t i = 0; i < count; ++i)
-    sorted[i] = (valued_point){value[i], i};
-  qsort(sorted, count, sizeof *sorted, by_value);
-  size_t doubled;
-  fg_status status = count_doubled(&doubled, points);
-  if (status == FG_STATUS_OK &&
-      ((double)doubled > FEW * (double)count || is_overlaid(points, sorted))) {
-    *out = fg__allocate(count, sizeof **out);
-    if (!*out)
-      status = fg__fail_memory(points->context, "times", count * sizeof **out);
-    for (size_t i = *values = 0; *out && i < count; ++i)
-      if (i == 0 || sorted[i].value > sorted[i - 1].value)
-        (*out)[(*values)++] = sorted[i].value;
-  }
-  free(sorted);
-  return status;
-}
-
-fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,
-                             double **all)
-{
-  const double *value = level ? points->level : points->time;
-  size_t count = 1;
-  *all = NULL;
-  fg_status status =
-      value && points->count > 0 ? find_values(all, &count, points, value) : FG_STATUS_OK;
-  *values = (int)count;
-  if (status == FG_STATUS_OK && (wanted < 0 || (size_t)wanted >= count))
-    return fg__fail(points->context, FG_STATUS_ARGUMENT,
-                    "%s: %s %d is asked for; there %s %zu, from 0 on", points->path,
-                    level ? "level" : "time", wanted, count == 1 ? "is" : "are", count);
-  if (status != FG_STATUS_OK || !*all)
-    return status;
-  unsigned char *is_kept = fg__allocate(points->count, 1);
-  if (!is_kept)
-    return fg__fail_memory(points->context, "points", points->count);
-  for (size_t i = 0; i < points->count; ++i)
-    is_kept[i] = value[i] >= (*all)[wanted] && value[i] <= (*all)[wanted];
-  keep(points, is_kept);
-  free(is_kept);
-  return FG_STATUS_OK;
-}
-
 static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
 {
   const fg__cell_points all = {0, set->points};
@@ -370,7 +244,8 @@ static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
   return status;
 }
 
-static fg_status triangulate(fg__cell_set *set, const fg__scatter *points)
+static fg_status triangulate(fg__cell_set *set, fg__scatter_between *between,
+                             const fg__scatter *points)
 {
   fg__triangles triangles = {0};
   set->position = fg__allocate(3 * points->count, sizeof *set->position);
@@ -380,8 +255,9 @@ static fg_status triangulate(fg__cell_set *set, const fg__scatter *points)
   for (size_t i = 0; i < points->count; ++i)
     for (int k = 0; k < 2; ++k)
       set->position[3 * i + (size_t)k] = points->position[k][i];
-  fg_status status = fg__scatter_triangulate(&triangles, points, points->position[0],
-                                             points->position[1], set->position, -1);
+  fg_status status =
+      fg__scatter_triangulate(&triangles, between, points, points->position[0],
+                              points->position[1], set->position, -1);
   if (status == FG_STATUS_OK)
     status = add_cells(set, &triangles);
   fg__triangles_clear(&triangles);
@@ -410,10 +286,11 @@ fg_status fg__point_grid_sample(fg__point_grid *out, const fg__cell_set *set,
   return FG_STATUS_OK;
 }
 
-static fg_status interpolate(fg__point_grid *out, const fg__scatter *points)
+static fg_status interpolate(fg__point_grid *out, fg__scatter_between *between,
+                             const fg__scatter *points)
 {
   fg__cell_set set = {.context = points->context, .path = points->path};
-  fg_status status = triangulate(&set, points);
+  fg_status status = triangulate(&set, between, points);
   if (status == FG_STATUS_OK)
     status = fg__cell_set_locate(&set);
   if (status == FG_STATUS_OK)
@@ -462,7 +339,7 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
   fg_status status = arrange(&grid, &found, points, &flat);
   words = &flat.all;
   if (status == FG_STATUS_OK && !found && points->geographic) {
-    status = fg__scatter_on_sphere(&sphere, &between->cells, points, words);
+    status = fg__scatter_on_sphere(&sphere, between, points, words);
     if (status == FG_STATUS_OK)
       status = fg__globe_field(out, points->context, sphere, slab);
     fg__sphere_destroy(sphere);
@@ -470,8 +347,8 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
   }
   if (status == FG_STATUS_OK && !found)
     status = points->dimension == 3 ? fg__scatter_fit(&grid, points)
-                                    : interpolate(&grid, points);
-  *between = (fg__scatter_between){grid.cells, grid.points};
+                                    : interpolate(&grid, between, points);
+  between->points = grid.points;
   if (status == FG_STATUS_OK)
     status = fg__point_grid_straighten(&grid, points->context, points->path,
                                        points->geographic);
@@ -481,17 +358,17 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
   return status;
 }
 
-fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter *points,
-                             const fg_field_arrays *words)
+fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter_between *between,
+                             fg__scatter *points, const fg_field_arrays *words)
 {
   fg__point_grid grid;
   bool found;
-  size_t cells;
   *out = NULL;
+  *between = (fg__scatter_between){0};
   fg__flat_words flat = {.all = *words};
   fg_status status = arrange(&grid, &found, points, &flat);
   fg__point_grid_clear(&grid);
   return status == FG_STATUS_OK && !found
-             ? fg__scatter_on_sphere(out, &cells, points, words)
+             ? fg__scatter_on_sphere(out, between, points, words)
              : status;
 }

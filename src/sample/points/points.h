@@ -16,23 +16,12 @@ typedef struct fg__scatter {
   int dimension;       /* coordinates a point has */
   double *position[3]; /* [count] each */
   float *velocity[3];  /* [count] each; NaN: missing */
-  double *time;        /* [count], when each was measured, or NULL; NaN: not known */
-  bool dated;          /* times are seconds from 1970-01-01 on */
-  double *level;       /* [count], the same of its level */
   int *record;         /* [count], where each stands in the file, or NULL */
   const char *records; /* what that is: "line" */
   bool geographic;     /* longitude and latitude in degrees; east and north */
 } fg__scatter;
 
 void fg__scatter_clear(fg__scatter *points);
-
-/* Where all points have times (or levels), and more than a tenth lie where others do or
- * each time has 8 points or more that are scattered like all of them, keeps those of one:
- * number `wanted` of *values in ascending order. Else all count, and *values is 1. *all,
- * to be freed: the times or levels, NULL where all count. ARGUMENT (no such time),
- * MEMORY. */
-fg_status fg__scatter_choose(fg__scatter *points, bool level, int wanted, int *values,
-                             double **all);
 
 /* The words of a field whose points may turn out to lie in a plane. */
 typedef struct fg__flat_words {
@@ -61,6 +50,7 @@ size_t fg__point_grid_samples(const fg__point_grid *grid);
 /* What the samples of a field are interpolated from; both 0: each is the file's. */
 typedef struct fg__scatter_between {
   size_t cells, points;
+  size_t gaps; /* cells that were left out, since they bridge gaps */
 } fg__scatter_between;
 
 /* The field of points, whose arrays it may change; the words are those of
@@ -73,17 +63,17 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
 
 /* The same of longitudes and latitudes as a field on the sphere; *out stays NULL where
  * they are a grid's. */
-fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter *points,
-                             const fg_field_arrays *words);
+fg_status fg__scatter_sphere(fg__sphere **out, fg__scatter_between *between,
+                             fg__scatter *points, const fg_field_arrays *words);
 
 /* The steps of both. Triangles between points that were made flat, x and y, those round
  * large empty circles in space left out; `far`: the number of the point that went to
  * infinity and is not among x and y, or -1. */
-fg_status fg__scatter_triangulate(fg__triangles *out, const fg__scatter *points,
-                                  const double *x, const double *y,
-                                  const double *position, int far);
-fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *points,
-                                const fg_field_arrays *words);
+fg_status fg__scatter_triangulate(fg__triangles *out, fg__scatter_between *between,
+                                  const fg__scatter *points, const double *x,
+                                  const double *y, const double *position, int far);
+fg_status fg__scatter_on_sphere(fg__sphere **out, fg__scatter_between *between,
+                                fg__scatter *points, const fg_field_arrays *words);
 
 /* The grid of points that are where its lines cross; *found: there is one. Of those lines
  * none may lack more crossings than have a point, but in holes. */
@@ -108,9 +98,5 @@ fg_status fg__point_grid_straighten(fg__point_grid *grid, fg_context *context,
  * fg_field_arrays. */
 fg_status fg__point_grid_field(fg_field **out, fg_context *context, fg__point_grid *grid,
                                const fg_field_arrays *words, fg__slab_index slab);
-
-/* Adds a field to an inventory; names, units, found_by and cells are given. */
-fg_status fg__scatter_describe(fg_inventory *inventory, fg_context *context,
-                               const fg_field *field, fg_inventory_vector vector);
 
 #endif

@@ -214,7 +214,9 @@ static void points_on_the_globe_close_round_it(void **state)
   }
   const fg_field_arrays words = {.scale = FG_SCALE_GEO};
   fg__sphere *sphere = NULL;
-  assert_int_equal(fg__scatter_sphere(&sphere, &g.scatter, &words), FG_STATUS_OK);
+  fg__scatter_between between;
+  assert_int_equal(fg__scatter_sphere(&sphere, &between, &g.scatter, &words),
+                   FG_STATUS_OK);
   assert_non_null(sphere);
   fg__scatter_clear(&g.scatter);
   fg__sphere_extent extent;

@@ -51,12 +51,11 @@ static void name_far_point(fg__triangles *triangles, int far)
   }
 }
 
-fg_status fg__scatter_triangulate(fg__triangles *out, const fg__scatter *points,
-                                  const double *x, const double *y,
-                                  const double *position, int far)
+fg_status fg__scatter_triangulate(fg__triangles *out, fg__scatter_between *between,
+                                  const fg__scatter *points, const double *x,
+                                  const double *y, const double *position, int far)
 {
   const size_t flat = points->count - (far >= 0);
-  size_t dropped = 0;
   fg_status status = fg__delaunay(out, points->context, flat, x, y, far >= 0);
   if (status == FG_STATUS_OK && (out->count == 0 || flatness(flat, x, y) < ON_LINE))
     status = fg__fail(points->context, FG_STATUS_UNSUPPORTED,
@@ -64,10 +63,11 @@ fg_status fg__scatter_triangulate(fg__triangles *out, const fg__scatter *points,
                       points->path, points->count);
   if (status == FG_STATUS_OK && far >= 0)
     name_far_point(out, far);
-  return status == FG_STATUS_OK
-             ? fg__triangles_cut(out, &dropped, points->context, points->count, position,
-                                 MOST_EMPTY_CIRCLE)
-             : status;
+  if (status == FG_STATUS_OK)
+    status = fg__triangles_cut(out, &between->gaps, points->context, points->count,
+                               position, MOST_EMPTY_CIRCLE);
+  between->cells = out->count;
+  return status;
 }
 
 /* The point opposite to the middle of all; false when they lie all round. */
@@ -133,7 +133,8 @@ static void flatten(double *x, double *y, const double pole[3], const double *po
   }
 }
 
-static fg_status triangulate_sphere(fg__triangles *out, const fg__scatter *points)
+static fg_status triangulate_sphere(fg__triangles *out, fg__scatter_between *between,
+                                    const fg__scatter *points)
 {
   const size_t count = points->count;
   double *position = fg__allocate(3 * count, sizeof *position);
@@ -153,7 +154,7 @@ static fg_status triangulate_sphere(fg__triangles *out, const fg__scatter *point
         pole[k] = position[3 * (size_t)far + (size_t)k];
     }
     flatten(x, y, pole, position, count, far);
-    status = fg__scatter_triangulate(out, points, x, y, position, far);
+    status = fg__scatter_triangulate(out, between, points, x, y, position, far);
   }
   free(position);
   free(x);
@@ -187,14 +188,13 @@ static fg_status make_cells(fg__sphere_cells *out, const fg__triangles *triangle
   return FG_STATUS_OK;
 }
 
-fg_status fg__scatter_on_sphere(fg__sphere **out, size_t *cells, fg__scatter *points,
-                                const fg_field_arrays *words)
+fg_status fg__scatter_on_sphere(fg__sphere **out, fg__scatter_between *between,
+                                fg__scatter *points, const fg_field_arrays *words)
 {
   fg__triangles triangles = {0};
   fg__sphere_cells made = {0};
   *out = NULL;
-  fg_status status = triangulate_sphere(&triangles, points);
-  *cells = triangles.count;
+  fg_status status = triangulate_sphere(&triangles, between, points);
   if (status == FG_STATUS_OK) {
     status = make_cells(&made, &triangles, points, words);
     if (status == FG_STATUS_OK)

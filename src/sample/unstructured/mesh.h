@@ -4,6 +4,7 @@
 #define FG__UNSTRUCTURED_MESH_H
 
 #include "interpret/unstructured/unstructured.h"
+#include "sample/points/points.h"
 #include "sample/rows.h"
 #include "sphere/sphere.h"
 
@@ -60,6 +61,26 @@ fg_status fg__cells_of_nodes(fg__sphere_cells *out, fg_context *context,
 fg_status fg__cells_of_faces(fg__sphere_cells *out, fg_context *context,
                              fg__mesh_topology *faces, float *velocity[2],
                              bool on_sphere);
+
+/* A vector that is read. */
+typedef struct fg__mesh_request {
+  const fg__dataset *data;
+  const fg__pair *pair;
+  const fg__grid *grid;
+  const fg_read_options *options;
+  bool counts_only; /* how much is missing, even all */
+  fg__vector_words words;
+  fg_field_arrays texts;
+} fg__mesh_request;
+
+/* points.c. The same of points without a mesh: *missing of them have no value. As a field
+ * on the sphere, where *sphere stays NULL for a grid's; or as any field, with the texts
+ * of its axes. */
+fg_status fg__points_sphere(fg__sphere **sphere, fg__scatter_between *between,
+                            size_t *missing, const fg__mesh_request *r);
+fg_status fg__points_field(fg_field **out, fg__scatter_between *between, size_t *missing,
+                           const fg__mesh_request *r, const fg_field_arrays *texts,
+                           fg__slab_index slab);
 
 /* read.c. The field that options choose: on the sphere, where *sphere may stay NULL, or
  * through its raster. */

@@ -19,22 +19,15 @@ static const double BYTES_PER_VECTOR = 200.0;
 
 enum { FEW_FACES = 16 }; /* of fewer one may be half as wide as all */
 
-typedef struct request {
-  const fg__dataset *data;
-  const fg__pair *pair;
-  const fg__grid *grid;
-  const fg_read_options *options;
-  bool counts_only; /* how much is missing, even all */
-  fg__vector_words words;
-  fg_field_arrays texts;
-} request;
+typedef fg__mesh_request request;
 
 static fg_status find_words(request *r)
 {
   const fg_status status =
       fg__vector_words_find(&r->words, r->data, r->pair, r->grid, r->options);
   r->texts = (fg_field_arrays){
-      .velocity_name = {fg__component_name(r->pair, 0), fg__component_name(r->pair, 1)},
+      .velocity_name = {fg__component_name(r->pair, 0), fg__component_name(r->pair, 1),
+                        r->grid->dimension == 3 ? fg__component_name(r->pair, 2) : NULL},
       .velocity_units = r->words.units,
       .title = r->words.title,
       .time = r->words.time[0] ? r->words.time : NULL,
@@ -202,54 +195,18 @@ static fg_status make_cells(fg__sphere_cells *out, size_t *missing, const reques
   return status;
 }
 
-/* Points without a mesh; those that have no place are left out. */
-static fg_status make_scatter(fg__scatter *out, size_t *missing, const request *r)
+static bool is_on_points(const request *r)
 {
-  const fg__unstructured *mesh = r->grid->unstructured;
-  const size_t count = r->grid->samples;
-  *out = (fg__scatter){.context = r->data->context,
-                       .path = r->data->file[0].path,
-                       .count = count,
-                       .dimension = 2,
-                       .records = "point",
-                       .geographic = !mesh->in_plane};
-  fg_status status = read_vectors(out->velocity, r);
-  if (status == FG_STATUS_OK)
-    status = fg__positions_of(out->position, r->data, mesh, mesh->node, count);
-  if (status == FG_STATUS_OK) {
-    *missing = missing_of(out->velocity, count);
-    out->record = fg__allocate(count, sizeof *out->record);
-    if (!out->record)
-      status = fg__fail_memory(r->data->context, "points", count * sizeof *out->record);
-  }
-  out->count = 0;
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
-    if (!isfinite(out->position[0][n]) || !isfinite(out->position[1][n]))
-      continue;
-    if (out->geographic) /* one number for one place */
-      out->position[0][n] = remainder(out->position[0][n], 360.0);
-    for (int k = 0; k < 2; ++k) {
-      out->position[k][out->count] = out->position[k][n];
-      out->velocity[k][out->count] = out->velocity[k][n];
-    }
-    out->record[out->count++] = (int)n;
-  }
-  return status;
+  return r->grid->unstructured->location == FG__MESH_ON_POINTS;
 }
 
-static fg_status make_sphere(fg__sphere **out, size_t *missing, const request *r)
+static fg_status make_sphere(fg__sphere **out, fg__scatter_between *between,
+                             size_t *missing, const request *r)
 {
   fg__sphere_cells cells = {0};
-  fg__scatter points = {0};
-  fg_status status;
-  if (r->grid->unstructured->location == FG__MESH_ON_POINTS) {
-    status = make_scatter(&points, missing, r);
-    if (status == FG_STATUS_OK)
-      status = fg__scatter_sphere(out, &points, &r->texts);
-    fg__scatter_clear(&points);
-    return status;
-  }
-  status = make_cells(&cells, missing, r);
+  if (is_on_points(r))
+    return fg__points_sphere(out, between, missing, r);
+  fg_status status = make_cells(&cells, missing, r);
   cells.words = &r->texts;
   if (status == FG_STATUS_OK)
     return fg__sphere_of_cells(out, r->data->context, &cells);
@@ -301,7 +258,7 @@ static fg_status name_axes(fg__grid *plane, fg_field_arrays *texts, const reques
   const fg__variable *const *at = mesh->node[0] ? mesh->node : mesh->centre;
   char units[FG__TEXT_BYTES];
   *plane = *r->grid;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < r->grid->dimension; ++k) {
     fg__grid_axis *axis = &plane->axis[k];
     axis->dimension = mesh->dimension;
     fg__attribute_text(at[k], "units", units, sizeof units);
@@ -341,25 +298,18 @@ static fg_status sample_cells(fg__point_grid *out, const request *r,
   return status;
 }
 
-static fg_status plane_field(fg_field **out, size_t *missing, const request *r,
-                             fg__slab_index slab)
+static fg_status plane_field(fg_field **out, fg__scatter_between *between,
+                             size_t *missing, const request *r, fg__slab_index slab)
 {
   fg__grid plane;
   fg_field_arrays texts = r->texts;
   fg__sphere_cells cells = {0};
-  fg__scatter points = {0};
   fg__point_grid grid = {0};
-  fg__scatter_between between;
   fg_status status = name_axes(&plane, &texts, r);
   if (status != FG_STATUS_OK)
     return status;
-  if (r->grid->unstructured->location == FG__MESH_ON_POINTS) {
-    status = make_scatter(&points, missing, r);
-    if (status == FG_STATUS_OK)
-      status = fg__scatter_field(out, &between, &points, &texts, slab);
-    fg__scatter_clear(&points);
-    return status;
-  }
+  if (is_on_points(r))
+    return fg__points_field(out, between, missing, r, &texts, slab);
   status = make_cells(&cells, missing, r);
   if (status == FG_STATUS_OK)
     status = sample_cells(&grid, r, &cells);
@@ -371,33 +321,27 @@ static fg_status plane_field(fg_field **out, size_t *missing, const request *r,
 }
 
 /* Points that are a grid's after all are read as that. */
-static fg_status grid_of_points(fg_field **out, size_t *missing, const request *r,
-                                fg__slab_index slab)
+static fg_status grid_of_points(fg_field **out, fg__scatter_between *between,
+                                size_t *missing, const request *r, fg__slab_index slab)
 {
-  fg__scatter points = {0};
   fg_field_arrays texts = r->texts;
-  fg__scatter_between between;
   texts.scale = FG_SCALE_GEO;
   for (int k = 0; k < 2; ++k) {
     texts.axis_name[k] = k == 0 ? "longitude" : "latitude";
     texts.axis_units[k] = k == 0 ? "°E" : "°N";
   }
-  fg_status status = make_scatter(&points, missing, r);
-  if (status == FG_STATUS_OK)
-    status = fg__scatter_field(out, &between, &points, &texts, slab);
-  fg__scatter_clear(&points);
-  return status;
+  return fg__points_field(out, between, missing, r, &texts, slab);
 }
 
-static fg_status make_field(fg_field **out, size_t *missing, const request *r,
-                            fg__slab_index slab)
+static fg_status make_field(fg_field **out, fg__scatter_between *between, size_t *missing,
+                            const request *r, fg__slab_index slab)
 {
-  if (r->grid->unstructured->in_plane)
-    return plane_field(out, missing, r, slab);
-  if (r->grid->unstructured->location == FG__MESH_ON_POINTS)
-    return grid_of_points(out, missing, r, slab);
   fg__sphere *sphere = NULL;
-  fg_status status = make_sphere(&sphere, missing, r);
+  if (r->grid->unstructured->in_plane)
+    return plane_field(out, between, missing, r, slab);
+  if (is_on_points(r))
+    return grid_of_points(out, between, missing, r, slab);
+  fg_status status = make_sphere(&sphere, between, missing, r);
   if (status == FG_STATUS_OK)
     status = fg__globe_field(out, r->data->context, sphere, slab);
   fg__sphere_destroy(sphere);
@@ -409,11 +353,12 @@ fg_status fg__unstructured_sphere(fg__sphere **sphere, const fg__dataset *data,
                                   const fg_read_options *options)
 {
   request r = {.data = data, .pair = pair, .grid = grid, .options = options};
+  fg__scatter_between between;
   size_t missing;
   *sphere = NULL;
   const fg_status status = find_words(&r);
   return status == FG_STATUS_OK && !grid->unstructured->in_plane
-             ? make_sphere(sphere, &missing, &r)
+             ? make_sphere(sphere, &between, &missing, &r)
              : status;
 }
 
@@ -422,21 +367,50 @@ fg_status fg__unstructured_field(fg_field **out, const fg__dataset *data,
                                  const fg_read_options *options, fg__slab_index slab)
 {
   request r = {.data = data, .pair = pair, .grid = grid, .options = options};
+  fg__scatter_between between;
   size_t missing;
   const fg_status status = find_words(&r);
-  return status == FG_STATUS_OK ? make_field(out, &missing, &r, slab) : status;
+  return status == FG_STATUS_OK ? make_field(out, &between, &missing, &r, slab) : status;
+}
+
+static double missing_of_field(const fg_field *field)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  size_t samples = 1, missing = 0;
+  for (int k = 0; k < a->dimension; ++k)
+    samples *= (size_t)a->size[k];
+  for (size_t n = 0; n < samples && a->valid; ++n)
+    missing += !a->valid[n];
+  return (double)missing / (double)samples;
 }
 
 static void describe_field(fg_inventory_vector *vector, const fg_field *field)
 {
   const fg_field_arrays *a = fg_field_contents(field);
-  for (int k = 0; k < 2; ++k) {
+  vector->dimension = vector->components = a->dimension;
+  for (int k = 0; k < a->dimension; ++k) {
     vector->size[k] = a->size[k];
     vector->bounds[2 * k] = a->axis[k][0];
     vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
     vector->periodic[k] = a->period[k] > 0.0;
   }
   vector->scale = a->scale;
+}
+
+/* What points become between which nothing is known. */
+static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
+                            const fg__scatter_between *between)
+{
+  const size_t used = strlen(mesh->rule);
+  vector->cells = between->cells;
+  vector->points = between->points;
+  if (between->gaps > 0)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used,
+             ", triangulated; %zu triangles across gaps left out", between->gaps);
+  else if (between->cells > 0)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used, ", triangulated");
+  else if (between->points == 0 && !strchr(mesh->rule, ';'))
+    vector->frame = NULL; /* on a grid after all */
 }
 
 fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__dataset *data,
@@ -447,14 +421,17 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
       .data = data, .pair = pair, .grid = grid, .options = &first, .counts_only = true};
   fg__sphere *sphere = NULL;
   fg_field *field = NULL;
+  fg__scatter_between between = {0};
   size_t missing = 0;
   fg_status status = find_words(&r);
   vector->frame = grid->unstructured->rule;
   vector->cells = grid->samples;
   if (status == FG_STATUS_OK && !grid->unstructured->in_plane)
-    status = make_sphere(&sphere, &missing, &r);
+    status = make_sphere(&sphere, &between, &missing, &r);
   if (status == FG_STATUS_OK && !sphere)
-    status = make_field(&field, &missing, &r, (fg__slab_index){0, 1});
+    status = make_field(&field, &between, &missing, &r, (fg__slab_index){0, 1});
+  if (status == FG_STATUS_OK && is_on_points(&r))
+    describe_points(vector, grid->unstructured, &between);
   if (status == FG_STATUS_OK && sphere) {
     fg__sphere_extent extent;
     fg__sphere_extent_of(&extent, sphere);
@@ -463,6 +440,8 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
     describe_field(vector, field);
   }
   vector->missing_share = (double)missing / (double)grid->samples;
+  if (field && is_on_points(&r))
+    vector->missing_share = missing_of_field(field);
   if (status == FG_STATUS_FILE_FORMAT && missing == grid->samples) {
     fg_context_clear(data->context); /* nothing at the first time; others may have */
     status = FG_STATUS_OK;

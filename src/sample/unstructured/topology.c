@@ -174,7 +174,7 @@ static fg_status read_connectivity(fg__mesh_topology *out, const fg__dataset *da
   number_list list = {0};
   double *counts = NULL;
   out->nodes = length_of(data, mesh->node[0], 0);
-  fg_status status = fg__positions_of(out->at, data, mesh, mesh->node, out->nodes);
+  fg_status status = fg__positions_of(out->at, data, mesh, mesh->node, out->nodes, 2);
   if (status == FG_STATUS_OK)
     status = read_numbers(&list, data, mesh);
   if (status == FG_STATUS_OK)
@@ -265,6 +265,6 @@ fg_status fg__mesh_topology_read(fg__mesh_topology *out, const fg__dataset *data
                      : mesh->connectivity ? read_connectivity(out, data, mesh)
                                           : read_bounds(out, data, mesh);
   if (status == FG_STATUS_OK && mesh->centre[0] && mesh->centre[1])
-    status = fg__positions_of(out->centre, data, mesh, mesh->centre, out->count);
+    status = fg__positions_of(out->centre, data, mesh, mesh->centre, out->count, 2);
   return status;
 }

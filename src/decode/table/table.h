@@ -1,12 +1,11 @@
 /* Tables of numbers in text, a point a line: CSV and the like, exports of PIV programs,
  * Tecplot's point format. In the order a file passes through the parts: lines, layout,
- * header, columns, rows. */
+ * header, file. */
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
-#include "read/format.h"
-#include "sample/points/points.h"
-#include "terms/polar.h"
+#include "dataset/dataset.h"
+#include "decode/source.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -65,7 +64,6 @@ fg__table_value fg__table_number(double *out, const fg__table_field *field, char
 
 typedef struct fg__table_column {
   char name[FG__TABLE_NAME], units[FG__TABLE_NAME];
-  char plain[FG__TABLE_NAME]; /* the name in small letters, words parted by _ */
 } fg__table_column;
 
 typedef enum fg__table_kind {
@@ -80,16 +78,10 @@ typedef struct fg__table {
   fg__table_cursor data; /* the first line of data is next */
   fg__table_style style;
   fg__table_kind kind;
-  bool placeless; /* a velocity needs no columns of places */
-  bool named;     /* columns have names of the file's; else their numbers from 1 */
+  bool named; /* columns have names of the file's; else their numbers from 1 */
   int columns;
   fg__table_column *column; /* [columns] */
 } fg__table;
-
-/* Finds how the table is laid out and what its columns are called. FILE_FORMAT (no
- * table), UNSUPPORTED, MEMORY. To be cleared even after a failure. */
-fg_status fg__table_open(fg__table *out, fg_context *context, const fg__source *source);
-void fg__table_clear(fg__table *table);
 
 /* layout.c. The style of the lines, how many columns, and where data begin. */
 fg_status fg__table_find_layout(fg__table *table, const fg__source *source);
@@ -100,51 +92,13 @@ fg_status fg__table_find_names(fg__table *table, const fg__source *source);
 /* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm", "U[i] (m/s)". */
 void fg__table_name(fg__table_column *column, const char *text, size_t size);
 
-/* Columns of a vector and what else a row has; -1: none. */
-typedef struct fg__table_vector {
-  int dimension; /* of velocity and position */
-  int velocity[3];
-  int position[3];
-  int valid[2]; /* columns that say whether the row counts */
-  int mask;
-  int time;  /* when the row was measured */
-  int level; /* in 2D: at which height or depth */
-  bool geographic;
-  fg__polar polar; /* velocity is speed and direction */
-  const char *found_by;
-} fg__table_vector;
+/* file.c. Whether bytes are text, but no markup. */
+bool fg__is_table(const unsigned char *bytes, size_t size);
 
-enum { FG__TABLE_VECTORS = 16 };
-
-/* columns.c. Lists the vectors that columns may be, those of the best evidence. At most
- * FG__TABLE_VECTORS. MEMORY. */
-fg_status fg__table_vectors(fg__table_vector out[FG__TABLE_VECTORS], int *count,
-                            const fg__table *table);
-
-/* What a column is called, and its units. */
-fg__term fg__table_term(const fg__table *table, int column);
-
-/* The columns of places alone. */
-void fg__table_places(fg__table_vector *out, const fg__table *table);
-
-/* Picks the one that vars names (U,V; U,V,W; X,Y,U,V; X,Y,Z,U,V,W), or the only one.
- * ARGUMENT, UNSUPPORTED. */
-fg_status fg__table_choose(fg__table_vector *out, const fg__table *table,
-                           const fg_read_options *options);
-
-/* The column of that name or number; -1: none. */
-int fg__table_find(const fg__table *table, const char *name);
-
-/* The column whose plain name this is; -1: none. */
-int fg__table_find_plain(const fg__table *table, const char *plain);
-
-/* polar.c. Makes a named pair of a length and its direction, in either order, polar.
- * ARGUMENT (a speed beside what is no direction), UNSUPPORTED (not on the globe). */
-fg_status fg__table_settle_polar(fg__table_vector *vector, const fg__table *table,
-                                 bool on_globe);
-
-/* rows.c. Reads a vector's rows. FILE_FORMAT (naming line and column), MEMORY. */
-fg_status fg__table_rows(fg__scatter *out, const fg__table *table,
-                         const fg__table_vector *vector);
+/* Adds the columns to a dataset, along one dimension, the rows'; those without a header
+ * are called by their numbers from 1. FILE_FORMAT (no table, naming line and column),
+ * UNSUPPORTED, MEMORY. */
+fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
+                         const fg__source *source);
 
 #endif

@@ -1,10 +1,10 @@
-/* Arrays of NumPy: a .npy file has one, a .npz file, a ZIP archive, some by name. In the
- * order a file passes through the parts: zip, header, file, choice, field. */
-#ifndef FG__NPY_H
-#define FG__NPY_H
+/* Arrays of NumPy as a dataset: a .npy file has one, a .npz file, a ZIP archive, some by
+ * name. In the order a file passes through the parts: zip, header, file. */
+#ifndef FG__NUMPY_H
+#define FG__NUMPY_H
 
-#include "read/format.h"
-#include "sample/points/points.h"
+#include "dataset/dataset.h"
+#include "decode/source.h"
 
 enum { FG__NPY_RANK = 4, FG__NPY_ARRAYS = 256, FG__NPY_NAME = 64 };
 
@@ -17,7 +17,7 @@ typedef enum fg__npy_kind {
 } fg__npy_kind;
 
 typedef struct fg__npy_array {
-  char name[FG__NPY_NAME];
+  char name[FG__NPY_NAME]; /* "": it holds no numbers */
   fg__npy_kind kind;
   size_t item; /* bytes of a number */
   bool swapped;
@@ -61,48 +61,16 @@ fg_status fg__npy_header(fg__npy_array *out, size_t *header, fg_context *context
                          const char *path, const unsigned char *bytes, size_t size,
                          size_t all);
 
-typedef struct fg__npy_file {
-  fg_context *context;
-  const char *path;
-  fg__zip zip;
-  size_t count;
-  fg__npy_array array[FG__NPY_ARRAYS];
-} fg__npy_file;
-
+/* Whether bytes are those of an array, of an archive of arrays. */
 bool fg__is_npy(const unsigned char *bytes, size_t size);
 bool fg__is_npz(const unsigned char *bytes, size_t size);
 
-/* file.c. Reads the headers of all arrays. *out is cleared even after a failure. */
-fg_status fg__npy_open(fg__npy_file **out, fg_context *context, const fg__source *source);
-void fg__npy_close(fg__npy_file *file);
-
-/* Makes an array's numbers ready. FILE_FORMAT, MEMORY. */
-fg_status fg__npy_load(fg__npy_file *file, fg__npy_array *array);
-
-/* Number `index` in memory; of complex ones two follow each other. */
-double fg__npy_value(const fg__npy_array *array, size_t index);
-
-/* Which array has what; NULL: none. */
-typedef struct fg__npy_choice {
-  fg__npy_array *velocity[3]; /* one array of vectors: the first alone */
-  int component_axis;         /* of one array of vectors; -1: complex, or several */
-  bool table;                 /* rows of x, y, u, v */
-  int dimension;
-  fg__npy_array *position[3];
-  fg__npy_array *mask;
-  bool mask_hides; /* numbers that are not 0 hide, as in numpy.ma; else the others */
-  bool geographic;
-  const char *found_by;
-} fg__npy_choice;
-
-/* choice.c. ARGUMENT, UNSUPPORTED. */
-fg_status fg__npy_choose(fg__npy_choice *out, fg__npy_file *file,
-                         const fg_read_options *options);
-
-/* field.c. Makes the field of a choice; *between is how points were interpolated; with
- * `sphere`, and scattered longitudes and latitudes, the field on the sphere instead. */
-fg_status fg__npy_field(fg_field **out, fg__scatter_between *between, fg__sphere **sphere,
-                        fg__npy_file *file, const fg__npy_choice *choice,
-                        const fg_read_options *options, fg__slab_index slab);
+/* file.c. Adds the arrays to a dataset, along dimensions that have no names; those of
+ * one length are one. An array whose first or last axis counts two components, or three
+ * of a volume, and complex numbers are also there by components; the only one with four
+ * or six columns by columns, called by their numbers from 1. FILE_FORMAT, UNSUPPORTED,
+ * MEMORY. */
+fg_status fg__numpy_open(fg__dataset *dataset, fg_context *context,
+                         const fg__source *source);
 
 #endif

@@ -4,8 +4,9 @@
 #define ZLIB_CONST
 #include <zlib.h>
 
+#include "base/utf8.h"
+#include "decode/numpy/numpy.h"
 #include "file/checksum.h"
-#include "read/npy/npy.h"
 
 enum {
   END_BYTES = 22,
@@ -124,10 +125,9 @@ static fg_status add_entry(fg__zip *out, fg_context *context, const fg__source *
                     source->path, FG__NPY_ARRAYS);
   fg__zip_entry *entry = &out->entry[out->count++];
   size_t value[3] = {number(c + 24, 4), number(c + 20, 4), number(c + 42, 4)};
-  const size_t shown = name - 4 < FG__NPY_NAME ? name - 4 : FG__NPY_NAME - 1;
   *entry = (fg__zip_entry){.deflated = number(c + 10, 2) == DEFLATED,
                            .checksum = (uint32_t)number(c + 16, 4)};
-  memcpy(entry->name, c + CENTRAL_BYTES, shown);
+  fg__utf8_take(entry->name, FG__NPY_NAME, (const char *)c + CENTRAL_BYTES, name - 4);
   if (!read_large(value, c + CENTRAL_BYTES + name, extra))
     return fail_damaged(context, source->path, "an entry has no size");
   entry->size = value[0];

@@ -2,7 +2,7 @@
  * literals, {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }. */
 #include <string.h>
 
-#include "read/npy/npy.h"
+#include "decode/numpy/numpy.h"
 
 enum { PREFIX = 10, LONG_PREFIX = 12, LONGEST = 1 << 16, WORD = 16 };
 

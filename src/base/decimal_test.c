@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/context_test.h"
-#include "file/number_text.h"
+#include "base/decimal.h"
 
 static void assert_text(double number)
 {
@@ -78,5 +78,5 @@ static void numbers_are_printfs(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_printfs)};
-  return cmocka_run_group_tests_name("file/number_text", tests, NULL, NULL);
+  return cmocka_run_group_tests_name("base/decimal", tests, NULL, NULL);
 }

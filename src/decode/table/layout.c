@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "decode/table/table.h"
 #include "file/number_text.h"
-#include "read/table/table.h"
 
 enum {
   LOOKED_AT = 64, /* lines */

@@ -6,39 +6,27 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "base/utf8.h"
+#include "decode/table/table.h"
 #include "file/number_text.h"
-#include "file/utf8.h"
-#include "read/table/table.h"
+#include "terms/coordinates.h"
 #include "terms/text.h"
 #include "terms/units.h"
+#include "terms/vectors.h"
 
 enum { LOOKED_AT = 8 };
 
-/* Copies text of any bytes as UTF-8: what is none is Latin-1, as programs on Windows
- * write ° and µ. Control characters become blanks; blanks at the ends are left out. */
+/* Copies a name or unit; control characters become blanks, and blanks at the ends are
+ * left out. */
 static void copy_text(char out[FG__TABLE_NAME], const char *text, size_t size)
 {
-  char raw[FG__TABLE_NAME];
   size_t n = 0;
   for (; size > 0 && *text == ' '; --size)
     ++text;
-  if (size >= sizeof raw)
-    size = sizeof raw - 1;
-  memcpy(raw, text, size);
-  raw[size] = '\0';
-  const bool utf8 = fg__utf8_is_valid(raw);
-  for (size_t i = 0; i < size && n + 2 < FG__TABLE_NAME; ++i) {
-    const unsigned char c = (unsigned char)raw[i];
-    if (utf8 || c < 0x80) {
-      out[n++] = c < ' ' || c == 0x7f ? ' ' : (char)c;
-    } else {
-      out[n++] = (char)(0xc0 | c >> 6);
-      out[n++] = (char)(0x80 | (c & 0x3f));
-    }
-  }
-  out[n] = '\0';
-  while (!fg__utf8_is_valid(out)) /* a sign was cut in two */
-    out[--n] = '\0';
+  fg__utf8_take(out, FG__TABLE_NAME, text, size);
+  for (; out[n]; ++n)
+    if ((unsigned char)out[n] < ' ' || out[n] == 0x7f)
+      out[n] = ' ';
   while (n > 0 && out[n - 1] == ' ')
     out[--n] = '\0';
 }
@@ -73,7 +61,6 @@ void fg__table_name(fg__table_column *column, const char *text, size_t size)
   }
   if (strcmp(column->units, "-") == 0)
     column->units[0] = '\0';
-  fg__plain_name(column->plain, sizeof column->plain, column->name);
 }
 
 /* Splits names at blanks, and leaves "[mm]" with the name before it. */
@@ -225,17 +212,35 @@ static bool read_davis(fg__table *table, const char *text, const char *end)
   return true;
 }
 
-/* Whether names are those of a vector and its place. */
-static fg_status tell_vectors(bool *out, const fg__table *table, fg__table_column *names)
+static bool has_use(const fg__table *table, const fg__table_column *names,
+                    fg__column_use use)
 {
-  int count;
-  fg__table_vector found[FG__TABLE_VECTORS];
-  fg__table named = *table;
-  named.column = names;
-  named.named = true;
-  const fg_status status = fg__table_vectors(found, &count, &named);
-  *out = count > 0;
-  return status;
+  for (int c = 0; c < table->columns; ++c)
+    if (fg__column_fits(names[c].name, use))
+      return true;
+  return false;
+}
+
+/* Whether names are those of a vector and its place. */
+static fg_status tell_vectors(bool *out, const fg__table *table,
+                              const fg__table_column *names)
+{
+  static const fg__vector_rules rules = {.at_points = true};
+  const size_t columns = (size_t)table->columns;
+  fg__term *term = fg__allocate(columns, sizeof *term);
+  fg__vector *found = NULL;
+  size_t count = 0;
+  int places = has_use(table, names, FG__COLUMN_LONGITUDE) +
+               has_use(table, names, FG__COLUMN_LATITUDE);
+  for (int k = 0; k < 3 && places < 2; ++k)
+    places += has_use(table, names, (fg__column_use)(FG__COLUMN_X + k));
+  for (size_t c = 0; c < columns && term; ++c)
+    term[c] = (fg__term){.name = names[c].name, .units = names[c].units, .file = -1};
+  const bool memory = term && fg__vectors_find(&found, &count, term, columns, &rules);
+  *out = count > 0 && places >= 2;
+  free(term);
+  free(found);
+  return memory ? FG_STATUS_OK : fg__fail_memory(table->context, "vectors", columns * 64);
 }
 
 static fg_status fail_first(const fg__table *table, const fg__table_line *line)

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "read/table/table.h"
+#include "decode/table/table.h"
 
 fg__table_cursor fg__table_begin(const fg__source *source)
 {

@@ -1,0 +1,277 @@
+/* The rows of a table as columns of a dataset. */
+#include "decode/table/table.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/memory.h"
+#include "file/number_text.h"
+
+enum { LOOKED_AT = 4096, STOP_EVERY = 1 << 16, SHOWN = 40 };
+
+/* A text that is no number in a column of numbers: the first one. */
+typedef struct misfit {
+  fg__table_line line;
+  size_t count;
+} misfit;
+
+typedef struct table_state {
+  fg__table table;
+  size_t rows, cells_capacity, lines_capacity;
+  double *cell;         /* [rows * columns]; NaN: missing, or a text */
+  fg__table_line *line; /* [rows], in the source's bytes */
+  misfit *misfit;       /* [columns] */
+} table_state;
+
+/* Text, but no markup: the last format that is tried. A word in brackets is a heading, as
+ * CFD-Post's [Name]; an array of JSON has none behind its bracket. */
+bool fg__is_table(const unsigned char *bytes, size_t size)
+{
+  size_t first = 0, shown = 0;
+  if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0)
+    first = 3;
+  for (size_t i = first; i < size && i < LOOKED_AT; ++i) {
+    if ((bytes[i] < ' ' && !strchr("\t\n\r\f", bytes[i])) || bytes[i] == 0 ||
+        bytes[i] == 0x7f)
+      return false;
+    if (shown == 0 && (bytes[i] == '[' ? i + 1 == size || !isalpha(bytes[i + 1])
+                                       : strchr("<{", bytes[i]) != NULL))
+      return false;
+    shown += bytes[i] > ' ';
+  }
+  return shown > 0;
+}
+
+/* A heading in brackets: after it come other things than points, as CFD-Post's faces. */
+static bool is_heading(const fg__table_line *line)
+{
+  return line->size > 2 && line->text[0] == '[' &&
+         isalpha((unsigned char)line->text[1]) &&
+         memchr(line->text, ']', line->size) != NULL;
+}
+
+/* What could be no row whatever it holds. */
+static fg_status check_line(const fg__table *table, const fg__table_line *line)
+{
+  if (line->size > FG__TABLE_LINE)
+    return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+                    "%s: line %d has %zu bytes; no table's has more than %d", table->path,
+                    line->number, line->size, FG__TABLE_LINE);
+  if (table->kind == FG__TABLE_TECPLOT && line->size > 4 &&
+      strncasecmp(line->text, "ZONE", 4) == 0)
+    return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
+                    "%s: line %d begins a second zone; only files of one can be read",
+                    table->path, line->number);
+  return FG_STATUS_OK;
+}
+
+static fg_status fail_columns(const fg__table *table, const fg__table_line *line,
+                              int count)
+{
+  const int columns = table->columns;
+  return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
+                  "%s: line %d has %s%d columns, not %d as others", table->path,
+                  line->number, count > columns ? "more than " : "",
+                  count > columns ? columns : count, columns);
+}
+
+static bool grow(table_state *s)
+{
+  const size_t columns = (size_t)s->table.columns;
+  void *cell = s->cell, *line = s->line;
+  const bool grown =
+      fg__grow(&cell, &s->cells_capacity, (s->rows + 1) * columns, sizeof *s->cell) &&
+      fg__grow(&line, &s->lines_capacity, s->rows + 1, sizeof *s->line);
+  s->cell = cell;
+  s->line = line;
+  return grown;
+}
+
+static fg_status read_row(table_state *s, const fg__table_line *line)
+{
+  const fg__table *table = &s->table;
+  fg__table_field field;
+  int count = 0;
+  fg_status status = check_line(table, line);
+  if (status == FG_STATUS_OK && !grow(s))
+    status = fg__fail_memory(table->context, "rows", s->rows * 64);
+  if (status != FG_STATUS_OK)
+    return status;
+  double *cell = s->cell + s->rows * (size_t)table->columns;
+  for (size_t at = 0;
+       count <= table->columns && fg__table_split(&field, line, &at, table->style);
+       ++count)
+    if (count < table->columns &&
+        fg__table_number(&cell[count], &field, table->style.decimal) ==
+            FG__TABLE_NO_NUMBER &&
+        s->misfit[count].count++ == 0)
+      s->misfit[count].line = *line;
+  if (count != table->columns)
+    return fail_columns(table, line, count);
+  if (table->kind == FG__TABLE_DAVIS && cell[2] == 0.0 && cell[3] == 0.0)
+    cell[2] = cell[3] = (double)NAN;
+  s->line[s->rows++] = *line;
+  return FG_STATUS_OK;
+}
+
+static fg_status read_rows(table_state *s)
+{
+  fg__table_cursor cursor = s->table.data;
+  fg__table_line line;
+  fg__number_locale locale;
+  fg_status status = FG_STATUS_OK;
+  if (!fg__number_locale_begin(&locale))
+    return fg__fail_memory(s->table.context, "a locale", 1);
+  while (status == FG_STATUS_OK && fg__table_next(&line, &cursor)) {
+    if (fg__table_is_blank(&line) || fg__table_is_comment(&line))
+      continue;
+    if (is_heading(&line))
+      break;
+    if (line.number % STOP_EVERY == 0)
+      status = fg__check_stop(s->table.context);
+    if (status == FG_STATUS_OK)
+      status = read_row(s, &line);
+  }
+  fg__number_locale_end(&locale);
+  return status;
+}
+
+static const table_state *state_of(const fg__variable *v)
+{
+  return v->owner->file[v->file].state;
+}
+
+/* The field of a column, from 0, of a row. */
+static fg__table_field field_at(const table_state *s, const fg__table_line *line,
+                                int column)
+{
+  fg__table_field field = {"", 0};
+  size_t at = 0;
+  for (int c = 0; c <= column && fg__table_split(&field, line, &at, s->table.style); ++c)
+    ;
+  return field;
+}
+
+static fg_status fetch(const fg__variable *v, const size_t *start, const size_t *count,
+                       double *out)
+{
+  const table_state *s = state_of(v);
+  const size_t columns = (size_t)s->table.columns;
+  const misfit *bad = &s->misfit[v->id];
+  if (bad->count > 0) {
+    const fg__table_field field = field_at(s, &bad->line, v->id);
+    return fg__fail(s->table.context, FG_STATUS_FILE_FORMAT,
+                    "%s: line %d, column %d (%s): \"%.*s\" is no number", s->table.path,
+                    bad->line.number, v->id + 1, v->name,
+                    (int)(field.size < SHOWN ? field.size : SHOWN), field.text);
+  }
+  for (size_t n = 0; n < count[0]; ++n)
+    out[n] = s->cell[(start[0] + n) * columns + (size_t)v->id];
+  return FG_STATUS_OK;
+}
+
+static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, char *out,
+                             size_t size)
+{
+  const table_state *s = state_of(v);
+  for (size_t n = 0; n < count; ++n) {
+    const fg__table_field field = field_at(s, &s->line[first + n], v->id);
+    snprintf(out + n * size, size, "%.*s", (int)(field.size < size ? field.size : size),
+             field.text);
+  }
+  return FG_STATUS_OK;
+}
+
+static size_t record(const fg__variable *v, size_t n)
+{
+  return (size_t)state_of(v)->line[n].number;
+}
+
+static void close_state(void *state)
+{
+  table_state *s = state;
+  free(s->table.column);
+  free(s->cell);
+  free(s->line);
+  free(s->misfit);
+  free(s);
+}
+
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .fetch_texts = fetch_texts,
+                                    .close = close_state,
+                                    .has_no_titles = true,
+                                    .records = "line",
+                                    .record = record};
+
+/* A column of which most fields are texts is one of texts. */
+static fg_status add_column(fg__dataset *dataset, const table_state *s, int c)
+{
+  const fg__table_column *column = &s->table.column[c];
+  char number[16];
+  size_t known = 0;
+  for (size_t n = 0; n < s->rows; ++n)
+    known += !isnan(s->cell[n * (size_t)s->table.columns + (size_t)c]) ? 1U : 0U;
+  snprintf(number, sizeof number, "%d", c + 1);
+  fg__variable *v =
+      fg__dataset_add_variable(dataset, "", column->name[0] ? column->name : number);
+  if (!v)
+    return FG_STATUS_MEMORY;
+  v->plain_name = v->name;
+  v->type = s->misfit[(size_t)c].count > known ? FG__TYPE_TEXTS : FG__TYPE_FLOAT64;
+  v->rank = 1;
+  v->dimension[0] = (int)dataset->dimension_count - 1;
+  v->in_one_run = true;
+  v->id = c;
+  return column->units[0]
+             ? fg__variable_add_text(v, "units", column->units, strlen(column->units))
+             : FG_STATUS_OK;
+}
+
+static fg_status add_columns(fg__dataset *dataset, const table_state *s)
+{
+  fg_status status = FG_STATUS_OK;
+  fg__dimension *rows = fg__dataset_add_dimension(dataset, "row", s->rows);
+  if (!rows || !fg__dataset_add_group(dataset))
+    return FG_STATUS_MEMORY;
+  rows->is_nameless = true;
+  for (int c = 0; c < s->table.columns && status == FG_STATUS_OK; ++c)
+    status = add_column(dataset, s, c);
+  return status;
+}
+
+fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
+                         const fg__source *source)
+{
+  if (dataset->files > 0)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file cannot be used with a table", source->path);
+  table_state *s = fg__allocate(1, sizeof *s);
+  if (!s)
+    return fg__fail_memory(context, "a table", sizeof *s);
+  fg_status status =
+      fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
+  if (status != FG_STATUS_OK) {
+    free(s);
+    return status;
+  }
+  dataset->file[0].state = s;
+  s->table = (fg__table){.context = context, .path = dataset->file[0].path};
+  status = fg__table_find_layout(&s->table, source);
+  const size_t columns = (size_t)s->table.columns;
+  if (status == FG_STATUS_OK) {
+    s->table.column = fg__allocate(columns, sizeof *s->table.column);
+    s->misfit = fg__allocate(columns, sizeof *s->misfit);
+    if (!s->table.column || !s->misfit)
+      status = fg__fail_memory(context, "columns", columns * 200);
+  }
+  if (status == FG_STATUS_OK)
+    status = fg__table_find_names(&s->table, source);
+  if (status == FG_STATUS_OK)
+    status = read_rows(s);
+  return status == FG_STATUS_OK ? add_columns(dataset, s) : status;
+}
