@@ -249,7 +249,7 @@ printf '%s\n' '<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 1 0 0"><P
 try info bare.vti
 expect_code 1
 expect_one_complaint
-expect_error 'bare.vti: holds no vectors'
+expect_error 'bare.vti: no vectors found'
 done_with "info: no vectors"
 
 # standard input, the format that is forced, and a bound of memory
