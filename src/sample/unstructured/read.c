@@ -85,6 +85,25 @@ static fg_status apply_mask(float *velocity, const request *r)
   return status;
 }
 
+/* Turns vectors along a mesh's rows to east and north. */
+static fg_status turn_vectors(float *const velocity[2], const request *r)
+{
+  const fg__unstructured *mesh = r->grid->unstructured;
+  double *turn[2] = {NULL, NULL};
+  if (!mesh->turn[0])
+    return FG_STATUS_OK;
+  const fg_status status =
+      fg__positions_of(turn, r->data, mesh, mesh->turn, r->grid->samples, 2);
+  for (size_t n = 0; n < r->grid->samples && status == FG_STATUS_OK; ++n) {
+    const double u = (double)velocity[0][n], v = (double)velocity[1][n];
+    velocity[0][n] = (float)(u * turn[0][n] - v * turn[1][n]);
+    velocity[1][n] = (float)(u * turn[1][n] + v * turn[0][n]);
+  }
+  free(turn[0]);
+  free(turn[1]);
+  return status;
+}
+
 static fg_status read_vectors(float *velocity[2], const request *r)
 {
   const fg__grid *grid = r->grid;
@@ -109,6 +128,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
     status =
         fg__polar_turn_all(r->data->context, velocity, grid->samples, &r->pair->polar,
                            r->data->file[0].path, r->pair->component[1]->plain_name);
+  if (status == FG_STATUS_OK)
+    status = turn_vectors(velocity, r);
   if (status != FG_STATUS_OK || r->counts_only)
     return status;
   return fg__refuse_missing_codes(r->data->context, r->data->file[0].path, velocity,
@@ -180,6 +201,7 @@ static fg_status make_cells(fg__sphere_cells *out, size_t *missing, const reques
   if (status == FG_STATUS_OK) {
     if (mesh->in_plane && !nodes)
       drop_wide_faces(velocity[0], &faces);
+    fg__fill_poles(&faces, mesh->poles, velocity);
     *missing = missing_of(velocity, r->grid->samples);
     status = nodes ? fg__cells_of_nodes(out, r->data->context, &faces, velocity)
                    : fg__cells_of_faces(out, r->data->context, &faces, velocity,
@@ -412,7 +434,7 @@ static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
 fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__dataset *data,
                                     const fg__pair *pair, const fg__grid *grid)
 {
-  static const fg_read_options first = {0};
+  const fg_read_options first = fg__first_samples(pair, grid);
   request r = {
       .data = data, .pair = pair, .grid = grid, .options = &first, .counts_only = true};
   fg__sphere *sphere = NULL;
