@@ -135,7 +135,6 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
   const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
-  const fg__slab_index wanted = slab;
   if (last->period > 0.0 || has_two_layers(grid))
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
@@ -177,7 +176,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   }
   fg__velocity_samples_clear(&read);
   return status == FG_STATUS_OK && has_two_layers(grid)
-             ? fg__drop_layer(out, data->context, wanted)
+             ? fg__drop_layer(out, data->context)
              : status;
 }
 

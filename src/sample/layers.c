@@ -96,31 +96,19 @@ static fg_status take_layer(fg_field **out, fg_context *context, const fg_field_
   return status;
 }
 
-/* After a failure there is no field. */
-static void replace(fg_field **field, fg_status status, fg_field *by)
-{
-  fg_field_destroy(*field);
-  *field = status == FG_STATUS_OK ? by : NULL;
-}
-
-fg_status fg__drop_layer(fg_field **field, fg_context *context, fg__slab_index slab)
+fg_status fg__drop_layer(fg_field **field, fg_context *context)
 {
   const fg_field_arrays *a = fg_field_contents(*field);
-  fg_status status = FG_STATUS_OK;
-  for (int k = 0; k < 3 && a->dimension == 3 && status == FG_STATUS_OK; ++k) {
+  for (int k = 0; k < 3 && a->dimension == 3; ++k) {
     fg_field *plane = NULL;
-    if (a->size[k] == 2 && a->period[k] <= 0.0 && are_alike(a, k)) {
-      status = take_layer(&plane, context, a, k);
-      replace(field, status, plane);
-    }
-    a = status == FG_STATUS_OK ? fg_field_contents(*field) : a;
-  }
-  if (status != FG_STATUS_OK || slab.count == 1)
+    if (a->size[k] != 2 || a->period[k] > 0.0 || !are_alike(a, k))
+      continue;
+    const fg_status status = take_layer(&plane, context, a, k);
+    fg_field_destroy(*field);
+    *field = plane;
     return status;
-  fg_field *rows = NULL;
-  status = fg__field_slab_of(&rows, context, *field, slab);
-  replace(field, status, rows);
-  return status;
+  }
+  return FG_STATUS_OK;
 }
 
 void fg__describe_field(fg_inventory_vector *vector, const fg_field *field)
