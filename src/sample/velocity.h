@@ -18,6 +18,10 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
                                     const fg__pair *pair, const fg__grid *grid,
                                     const fg__rows *rows, size_t time, size_t level,
                                     const char *mask);
+/* The share of samples that are missing at the first time and level. */
+fg_status fg__velocity_missing(double *share, const fg__dataset *data,
+                               const fg__pair *pair, const fg__grid *grid);
+
 void fg__velocity_samples_clear(fg__velocity_samples *samples);
 
 /* Rotates the components of some rows to the directions of the projection's plane. */
