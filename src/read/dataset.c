@@ -275,35 +275,6 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
   return close_chosen(&data, &grid, status);
 }
 
-enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
-
-static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
-                               const fg__pair *pair, const fg__grid *grid)
-{
-  const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
-  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
-  const fg_read_options at = fg__first_samples(pair, grid);
-  size_t count = 0;
-  fg_status status = FG_STATUS_OK;
-  for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
-    const int own = (int)(all - first < most ? all - first : most);
-    const fg__rows rows = {(int)first, own, own};
-    fg__velocity_samples read = {0};
-    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)at.time,
-                                       (size_t)at.level, NULL);
-    for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
-      bool missing = read.valid && !read.valid[i];
-      for (int k = 0; k < grid->dimension; ++k)
-        missing = missing || !isfinite(read.velocity[k][i]);
-      count += missing;
-    }
-    fg__velocity_samples_clear(&read);
-  }
-  if (status == FG_STATUS_OK)
-    vector->missing_share = (double)count / (double)grid->samples;
-  return status;
-}
-
 /* Adds a vector with its times and levels. */
 static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector,
                             const fg__dataset *data, const fg__grid *grid)
@@ -377,7 +348,7 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
     return fg__curvilinear_describe(vector, data, pair, grid);
   if (grid->unstructured)
     return fg__unstructured_describe(vector, data, pair, grid);
-  return count_missing(vector, data, pair, grid);
+  return fg__missing_share(&vector->missing_share, data, pair, grid);
 }
 
 /* Takes the message of a refusal, without the file's name, and its hint. */
