@@ -379,8 +379,10 @@ fg_status fg_field_slice(fg_field **out, fg_context *context, const fg_field *vo
     status = c.along_axes ? cut_along_axes(&c) : cut_across(&c);
   if (status == FG_STATUS_OK) {
     name_all(&c);
-    status = fg__field_take(out, context, &c.arrays, c.velocity);
+    status = fg__field_check_plane(context, c.normal_sum, c.sum, c.arrays.axis_name);
   }
+  if (status == FG_STATUS_OK)
+    status = fg__field_take(out, context, &c.arrays, c.velocity);
   if (status == FG_STATUS_OK)
     (*out)->normal_share = c.sum > 0.0 ? c.normal_sum / c.sum : 0.0;
   for (int k = 0; k < 2; ++k) {

@@ -5,6 +5,7 @@
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
 #include "sample/missing.h"
+#include "sample/space/space.h"
 #include "sample/unstructured/mesh.h"
 #include "sample/velocity.h"
 
@@ -13,13 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-static fg_status open_file(fg__dataset *data, fg_context *context,
-                           const fg__dataset_format *format, const fg__source *source)
-{
-  const fg_status status = format->open(data, context, source);
-  return status == FG_STATUS_OK ? fg__settle_names(data) : status;
-}
 
 /* Whether two paths lead to one file. */
 static bool is_one_file(const char *path, const char *other)
@@ -41,7 +35,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
     status = fg__fail(context, FG_STATUS_FILE_FORMAT,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
-    status = open_file(data, context, format, &source);
+    status = fg__dataset_open(data, context, format, &source, NULL);
   return fg__source_close(&source, context, status);
 }
 
@@ -196,7 +190,7 @@ static fg_status choose(fg__dataset *data, fg__pair *pair, fg__grid *grid,
                         fg_context *context, const fg__dataset_format *format,
                         const fg__source *source, const fg_read_options *options)
 {
-  fg_status status = open_file(data, context, format, source);
+  fg_status status = fg__dataset_open(data, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = fg__missing_read(&data->missing, context, options->missing);
   if (status == FG_STATUS_OK && options->vars_from) {
@@ -231,11 +225,8 @@ static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
 /* Closes what choose() or open_chosen() has opened. */
 static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
 {
-  for (fg__dataset_file *f = data->file + 1; f < data->file + data->files; ++f)
-    status = fg__source_check(data->context, status, f->path, f->size);
   fg__grid_clear(grid);
-  fg__dataset_close(data);
-  return status;
+  return fg__dataset_end(data, status);
 }
 
 fg_status fg__dataset_read(fg_field **out, fg_context *context,
@@ -253,6 +244,8 @@ fg_status fg__dataset_read(fg_field **out, fg_context *context,
       status = fg__globe_field(out, context, sphere, slab);
   } else if (status == FG_STATUS_OK && grid.unstructured) {
     status = fg__unstructured_field(out, &data, &pair, &grid, options, slab);
+  } else if (status == FG_STATUS_OK && grid.domain) {
+    status = fg__space_field(out, &data, &pair, &grid, options, slab);
   } else if (status == FG_STATUS_OK) {
     status = make_field(out, &data, &pair, &grid, options, slab);
   }
@@ -281,9 +274,11 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 {
   fg_axis_value *times = NULL, *levels = NULL;
   char *time_text = NULL, *level_text = NULL;
-  fg_status status = vector->unusable
-                         ? FG_STATUS_OK
-                         : fg__index_values(&times, &time_text, data, grid, true);
+  fg_status status = FG_STATUS_OK;
+  if (!vector->unusable && grid->domain)
+    status = fg__space_times(&times, &time_text, data);
+  else if (!vector->unusable)
+    status = fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__index_values(&levels, &level_text, data, grid, false);
   vector->time_value = times;
@@ -348,7 +343,8 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
     return fg__curvilinear_describe(vector, data, pair, grid);
   if (grid->unstructured)
     return fg__unstructured_describe(vector, data, pair, grid);
-  return fg__missing_share(&vector->missing_share, data, pair, grid);
+  return grid->domain ? fg__space_count(vector, data, pair, grid)
+                      : fg__missing_share(&vector->missing_share, data, pair, grid);
 }
 
 /* Takes the message of a refusal, without the file's name, and its hint. */
@@ -379,7 +375,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .components = grid->dimension,
       .name = {pair->component[0]->name,
                pair->component[0]->element ? NULL : pair->component[1]->name,
-               grid->dimension == 3 ? pair->component[2]->name : NULL},
+               grid->dimension == 3 && pair->component[2] ? pair->component[2]->name
+                                                          : NULL},
       .units = texts.units,
       .found_by = pair->found_by,
       .dimension = grid->dimension,
@@ -392,9 +389,11 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .absent = defaults.absent[0] ? defaults.absent : NULL,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
-  const bool on_axes = !grid->mesh && !grid->unstructured;
+  const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
   if (on_axes)
     describe_axes(&vector, grid);
+  if (grid->domain && status == FG_STATUS_OK)
+    status = fg__space_describe(&vector, data, pair, grid);
   if (grid->unusable[0]) {
     snprintf(texts.unusable, sizeof texts.unusable, "%s%s%s", grid->unusable,
              grid->hint[0] ? "; " : "", grid->hint);
@@ -434,14 +433,13 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
   fg__dataset data = {0};
   fg__pair *pairs = NULL;
   size_t count = 0;
-  fg_status status = open_file(&data, context, format, source);
+  fg_status status = fg__dataset_open(&data, context, format, source, NULL);
   if (status == FG_STATUS_OK)
     status = fg__pairs_find(&pairs, &count, &data);
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
     status = describe_pair(inventory, &data, &pairs[i]);
   free(pairs);
-  fg__dataset_close(&data);
-  return status;
+  return fg__dataset_end(&data, status);
 }
 
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,

@@ -28,15 +28,6 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
   return FG_STATUS_OK;
 }
 
-static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, char *out,
-                             size_t size)
-{
-  (void)first;
-  memset(out, 0, count * size);
-  return fg__fail(v->owner->context, FG_STATUS_UNSUPPORTED, "%s: '%s' is of numbers",
-                  v->path, v->name);
-}
-
 static void close_state(void *state)
 {
   mesh_state *s = state;
@@ -45,10 +36,8 @@ static void close_state(void *state)
   free(s);
 }
 
-static const fg__decoder DECODER = {.fetch = fetch,
-                                    .fetch_texts = fetch_texts,
-                                    .close = close_state,
-                                    .has_no_titles = true};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .close = close_state, .has_no_titles = true};
 
 /* Adds a variable along one dimension, or two; NULL: no memory. Its array is taken over.
  */

@@ -3,7 +3,8 @@
 
 #include "read/dataset.h"
 
-static const fg__dataset_format FORMAT = {"GRIB", fg__is_grib, fg__grib_open};
+static const fg__dataset_format FORMAT = {
+    .name = "GRIB", .is_mine = fg__is_grib, .open = fg__grib_open};
 
 FG__DATASET_HOOKS(FORMAT)
 

@@ -236,14 +236,10 @@ static fg_status merge_doubled(fg__scatter *points)
 
 static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
 {
-  const fg__cell_points all = {0, set->points};
   fg_status status = FG_STATUS_OK;
-  for (size_t t = 0; t < triangles->count && status == FG_STATUS_OK; ++t) {
-    double corner[3];
-    for (int k = 0; k < 3; ++k)
-      corner[k] = (double)triangles->corner[3 * t + (size_t)k];
-    status = fg__cell_set_add(set, FG__CELL_TRIANGLE, corner, &all, (int)t);
-  }
+  for (size_t t = 0; t < triangles->count && status == FG_STATUS_OK; ++t)
+    status = fg__cell_set_add_points(set, FG__CELL_TRIANGLE, triangles->corner + 3 * t,
+                                     (int)t);
   set->numbers = triangles->count;
   return status;
 }
