@@ -2,16 +2,16 @@
 #ifndef ALTERNATIVES_H
 #define ALTERNATIVES_H
 
-#include "program.h"
+#include "option/settings.h"
 
-/* Counts the times and levels of the vector that the options choose; leaves both as they
- * are where that is unknown. */
-void count_alternatives(int *times, int *levels, const char *input,
-                        const fg_read_options *options);
+/* Counts the times and levels of an input's vector; leaves both as they are where that is
+ * unknown. */
+void count_alternatives(int *times, int *levels, fg_input *input);
 
-/* After reading has failed by what the samples are (all missing or zero), and without a
- * hint: advises another time or level where there is one. */
-void advise_alternatives(const fg_context *failed, fg_status status, const char *input,
-                         const fg_read_options *options);
+/* Prints the error of reading a field. Where it is what the samples are (all missing or
+ * zero), advises another time or level, if there is one. Returns the exit code. input:
+ * NULL, it was not opened. */
+int complain_of_field(const fg_context *failed, fg_status status, fg_input *input,
+                      const reading_settings *settings);
 
 #endif

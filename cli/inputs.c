@@ -82,7 +82,8 @@ static int read_standard_input(const input_settings *settings, int ranks)
 int inputs_prepare(const input_settings *settings, const char *const *inputs, int count,
                    int ranks)
 {
-  given = (fg_input_options){.format = settings->format, .most_memory = default_memory()};
+  given = (fg_input_options){
+      .format = settings->format, .most_memory = default_memory(), .isolate = true};
   if (settings->max_memory)
     value_read_size(&given.most_memory, settings->max_memory);
   for (int k = 0; k < count; ++k)
@@ -94,12 +95,6 @@ int inputs_prepare(const input_settings *settings, const char *const *inputs, in
 void inputs_give(fg_context *context)
 {
   fg_context_set_input(context, &given);
-}
-
-const unsigned char *inputs_bytes(size_t *size)
-{
-  *size = given.size;
-  return given.bytes;
 }
 
 int create_context(fg_context **out)

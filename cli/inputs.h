@@ -14,9 +14,6 @@ int inputs_prepare(const input_settings *settings, const char *const *inputs, in
 /* Passes these to a context (fg_context_set_input). */
 void inputs_give(fg_context *context);
 
-/* Bytes of standard input; NULL where no input is "-". */
-const unsigned char *inputs_bytes(size_t *size);
-
 /* Creates a context with these, or prints an error. Returns an exit code. */
 int create_context(fg_context **out);
 

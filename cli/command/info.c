@@ -8,7 +8,6 @@
 #include "inputs.h"
 #include "option/table.h"
 #include "report/json.h"
-#include "sandbox.h"
 
 static int name_count(const fg_inventory_vector *vector)
 {
@@ -159,11 +158,13 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
 /* The inventory to print: of the whole file, or of the chosen vector. */
 typedef struct listing {
   const char *file;
-  fg_inventory *inventory;
+  const fg_inventory *inventory; /* the input's, or `all` */
+  fg_inventory *all;
+  fg_input *input;
   bool is_chosen;
   fg_inventory_vector chosen;
   fg_field *field; /* the chosen vector as read, whose texts `chosen` has */
-  int looks; /* times that were read for one with values */
+  int looks;       /* times that were read for one with values */
 } listing;
 
 static int count_of(const listing *list)
@@ -250,16 +251,14 @@ static int time_of_look(int look, int looks, int times)
 /* Reads the chosen vector at the first time that has values; *looks: of so many that are
  * looked at. */
 static fg_status read_any(fg_field **out, int *looks, fg_context *context,
-                          const listing *list, const fg_read_options *options)
+                          fg_input *input, int times)
 {
-  const int times = list->chosen.times;
-  fg_status status = fg_field_read(out, context, list->file, options);
+  fg_status status = fg_input_field(out, context, input, 0, 0, 0, 1);
   *looks = status != FG_STATUS_FILE_FORMAT ? 1 : times < MOST_LOOKS ? times : MOST_LOOKS;
   for (int look = 1; look < *looks && status == FG_STATUS_FILE_FORMAT; ++look) {
-    fg_read_options other = *options;
-    other.time = time_of_look(look, *looks, times);
     fg_context_clear(context);
-    status = fg_field_read(out, context, list->file, &other);
+    status =
+        fg_input_field(out, context, input, time_of_look(look, *looks, times), 0, 0, 1);
   }
   return status;
 }
@@ -269,13 +268,14 @@ static fg_status read_any(fg_field **out, int *looks, fg_context *context,
 static fg_status list_chosen(listing *list, fg_context *context,
                              const fg_read_options *options)
 {
-  fg_status status =
-      fg_inventory_read_chosen(&list->inventory, context, list->file, options);
+  fg_status status = fg_input_open(&list->input, context, list->file, options);
+  if (!status)
+    status = fg_input_inventory(&list->inventory, context, list->input);
   list->is_chosen = !status && fg_inventory_vector_count(list->inventory) > 0;
   if (!list->is_chosen)
     return status;
   list->chosen = *fg_inventory_vector_at(list->inventory, 0);
-  status = read_any(&list->field, &list->looks, context, list, options);
+  status = read_any(&list->field, &list->looks, context, list->input, list->chosen.times);
   if (!status)
     take_grid(&list->chosen, list->field);
   return status;
@@ -315,11 +315,13 @@ int command_info(const void *given)
   fg_context *context;
   options.map = NULL;
   const bool chosen = chooses(&settings->reading);
-  if (sandbox_trial(list.file, chosen ? &options : NULL) || create_context(&context))
+  if (create_context(&context))
     return EXIT_FAILED;
   int code = EXIT_DONE;
   fg_status status = chosen ? list_chosen(&list, context, &options)
-                            : fg_inventory_read(&list.inventory, context, list.file);
+                            : fg_inventory_read(&list.all, context, list.file);
+  if (!chosen)
+    list.inventory = list.all;
   if (status)
     code = complain_of_chosen(context, status, &list);
   else if (settings->json)
@@ -329,7 +331,8 @@ int command_info(const void *given)
   if (!status && count_of(&list) == 0)
     code = complain_of_none(context, &list, &options);
   fg_field_destroy(list.field);
-  fg_inventory_destroy(list.inventory);
+  fg_inventory_destroy(list.all);
+  fg_input_close(list.input);
   fg_context_destroy(context);
   return code;
 }

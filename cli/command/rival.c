@@ -11,7 +11,6 @@
 #include "inputs.h"
 #include "option/table.h"
 #include "option/validation.h"
-#include "sandbox.h"
 #include "series/places.h"
 
 static const char name_end[] = ".geojson";
@@ -269,14 +268,6 @@ static int check_method(const rival_settings *settings)
 static int prepare(rival_work *work)
 {
   const rival_settings *settings = work->settings;
-  fg_read_options reading;
-  if (places_reading(&reading, &settings->reading) ||
-      sandbox_reading(settings->reading.input, &reading))
-    return EXIT_FAILED;
-  if (create_context(&work->context))
-    return EXIT_FAILED;
-  fg_status status =
-      fg_field_read(&work->field, work->context, settings->reading.input, &reading);
   fg_rival_options options = {.method = (fg_rival_method)settings->method,
                               .nodes = settings->nodes,
                               .length_by_speed = settings->by_speed != 0,
@@ -284,17 +275,20 @@ static int prepare(rival_work *work)
                               .direction_only = settings->position_weight == 0.0,
                               .position_weight = fmax(settings->position_weight, 0.0),
                               .elongation = settings->elongation};
-  if (!status) {
-    report_doubts(settings->reading.input, work->field);
-    int dimension = fg_field_contents(work->field)->dimension;
-    int code = refuse_other_dimension("rival", &settings->picture, dimension,
-                                      settings->reading.input);
-    if (!code)
-      code = refuse_undrawable(settings->formats, false, dimension == 3);
-    if (code)
-      return code;
-    status = fg_rival_create(&work->rival, work->context, work->field, &options);
-  }
+  int code = create_context(&work->context);
+  if (!code)
+    code = places_read(&work->field, work->context, &settings->reading);
+  if (code)
+    return code;
+  const int dimension = fg_field_contents(work->field)->dimension;
+  code = refuse_other_dimension("rival", &settings->picture, dimension,
+                                settings->reading.input);
+  if (!code)
+    code = refuse_undrawable(settings->formats, false, dimension == 3);
+  if (code)
+    return code;
+  const fg_status status =
+      fg_rival_create(&work->rival, work->context, work->field, &options);
   return status ? complain_of(work->context, status, settings->reading.input) : EXIT_DONE;
 }
 

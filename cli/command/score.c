@@ -8,7 +8,6 @@
 #include "inputs.h"
 #include "option/table.h"
 #include "report/json.h"
-#include "sandbox.h"
 #include "series/places.h"
 
 typedef struct score_work {
@@ -43,16 +42,11 @@ static int score_file(score_work *work, int number)
 static int prepare(score_work *work)
 {
   const score_settings *settings = work->settings;
-  fg_read_options reading;
-  if (places_reading(&reading, &settings->reading) ||
-      sandbox_reading(settings->reading.input, &reading) ||
-      create_context(&work->context))
-    return EXIT_FAILED;
-  fg_status status =
-      fg_field_read(&work->field, work->context, settings->reading.input, &reading);
-  if (status)
-    return complain_of(work->context, status, settings->reading.input);
-  report_doubts(settings->reading.input, work->field);
+  int code = create_context(&work->context);
+  if (!code)
+    code = places_read(&work->field, work->context, &settings->reading);
+  if (code)
+    return code;
   work->scores = calloc((size_t)settings->files.count, sizeof *work->scores);
   if (work->scores)
     return EXIT_DONE;

@@ -6,7 +6,6 @@
 #include "interrupt.h"
 #include "option/settings.h"
 #include "option/validation.h"
-#include "sandbox.h"
 #include "series/places.h"
 
 static int write_texture(fg_context *context, const texture_settings *settings,
@@ -101,12 +100,7 @@ static int check_options(const texture_settings *settings)
 int command_texture(const void *given)
 {
   const texture_settings *settings = given;
-  fg_read_options reading;
   int code = check_options(settings);
-  if (!code)
-    code = places_reading(&reading, &settings->reading);
-  if (!code && sandbox_reading(settings->reading.input, &reading))
-    code = EXIT_FAILED;
   if (code)
     return code;
   fg_context *context;
@@ -114,11 +108,9 @@ int command_texture(const void *given)
     return EXIT_FAILED;
   interrupt_start(context);
   fg_field *field = NULL;
-  fg_status status = fg_field_read(&field, context, settings->reading.input, &reading);
-  if (!status)
-    report_doubts(settings->reading.input, field);
-  code = status ? complain_of(context, status, settings->reading.input)
-                : paint(context, settings, field);
+  code = places_read(&field, context, &settings->reading);
+  if (!code)
+    code = paint(context, settings, field);
   interrupt_end();
   fg_field_destroy(field);
   fg_context_destroy(context);

@@ -9,7 +9,6 @@
 #include "folder/file.h"
 #include "folder/scale_files.h"
 #include "option/validation.h"
-#include "sandbox.h"
 
 int drawn_run_open(drawn_run *out, const char *folder)
 {
@@ -133,8 +132,6 @@ static int read_field(drawn_run *run, fg_context *context, const draw_settings *
   const char *const inputs[] = {input, reading.vars_from, reading.mesh_from};
   if (settings->output && check_is_no_input(settings->output, inputs, 3))
     return EXIT_FAILED; /* the pictures of a series are in its folder */
-  if (sandbox_reading(input, &reading))
-    return EXIT_FAILED;
   fg_status status = fg_field_read(&run->field, context, input, &reading);
   if (!status)
     report_doubts(input, run->field);

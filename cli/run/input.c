@@ -6,30 +6,9 @@
 
 #include "alternatives.h"
 #include "build_features.h"
-#include "inputs.h"
 #include "option/table.h"
 #include "option/validation.h"
 #include "ranks.h"
-#include "sandbox.h"
-
-/* Counts the times and levels of the input; leaves 0 where that is unknown. */
-static void count_choices(cli_run *run)
-{
-  const fg_read_options reading = settings_reading(&run->settings->reading);
-  count_alternatives(&run->facts.time_count, &run->facts.level_count,
-                     run->settings->reading.input, &reading);
-}
-
-/* Prints the error of reading. Another time may have values where all are missing or
- * zero. */
-static int complain_of_reading(cli_run *run, fg_status status)
-{
-  const int code = complain_of(run->context, status, run->settings->reading.input);
-  const fg_read_options reading = settings_reading(&run->settings->reading);
-  if (!run->settings->reading.map.has_region)
-    advise_alternatives(run->context, status, run->settings->reading.input, &reading);
-  return code;
-}
 
 /* Reads a slab, unless icons need the whole density (snapshot.c). */
 int input_read(cli_run *run)
@@ -39,14 +18,16 @@ int input_read(cli_run *run)
       settings->tolerance > 0.0 || settings->picture.tint || settings->picture.background;
   const int slab = whole ? 0 : ranks_number(), slabs = whole ? 1 : ranks_count();
   progress_stage(&run->progress, "reading");
-  fg_read_options reading = settings_reading(&settings->reading);
-  if (sandbox_reading_part(settings->reading.input, &reading, slab, slabs))
-    return EXIT_FAILED;
-  fg_status status = fg_field_read_slab(&run->field, run->context,
-                                        settings->reading.input, &reading, slab, slabs);
+  const fg_read_options reading = settings_reading(&settings->reading);
+  fg_status status = FG_STATUS_OK;
+  if (!run->input)
+    status = fg_input_open(&run->input, run->context, settings->reading.input, &reading);
+  if (!status)
+    status = fg_input_field(&run->field, run->context, run->input, reading.time,
+                            reading.level, slab, slabs);
   progress_wipe(&run->progress);
   if (status)
-    return complain_of_reading(run, status);
+    return complain_of_field(run->context, status, run->input, &settings->reading);
   run->facts.field = run->field;
   int dimension = fg_field_contents(run->field)->dimension;
   int code = refuse_other_dimension("run", &settings->picture, dimension,
@@ -70,7 +51,7 @@ static void print_choices(cli_run *run)
   const run_settings *settings = run->settings;
   const fg_field_arrays *field = fg_field_contents(run->field);
   if (field->time || field->level)
-    count_choices(run);
+    count_alternatives(&run->facts.time_count, &run->facts.level_count, run->input);
   if (settings->quiet)
     return;
   print_choice(settings->reading.input, "time", settings->reading.time,
@@ -83,11 +64,13 @@ int input_join(cli_run *run)
 {
   fg_status status = fg_field_join(run->context, run->field);
   if (status)
-    return complain_of_reading(run, status);
+    return complain_of_field(run->context, status, run->input, &run->settings->reading);
   if (ranks_leader()) {
     print_choices(run);
     report_doubts(run->settings->reading.input, run->field);
   }
+  fg_input_close(run->input);
+  run->input = NULL;
   return EXIT_DONE;
 }
 
@@ -118,12 +101,8 @@ static int read_energy(fg_tensors **out, const cli_run *run)
   *out = NULL;
   if (energy_place(path) >= 0)
     return EXIT_DONE;
-  int code = sandbox_reading(path, NULL);
-  if (!code) {
-    fg_status status = fg_tensors_read(out, run->context, path, run->field);
-    code = status ? complain_of(run->context, status, path) : EXIT_DONE;
-  }
-  return ranks_agree(code);
+  const fg_status status = fg_tensors_read(out, run->context, path, run->field);
+  return ranks_agree(status ? complain_of(run->context, status, path) : EXIT_DONE);
 }
 
 int input_create_scales(cli_run *run, fg_run_options *options)

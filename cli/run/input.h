@@ -4,12 +4,13 @@
 
 #include "run/run.h"
 
-/* Reads this rank's slab of the field, and checks that the settings apply to its
- * dimension. Returns an exit code of this rank. */
+/* Reads this rank's slab of the field, of an input that is perhaps open, and checks that
+ * the settings apply to its dimension. Returns an exit code of this rank. */
 int input_read(cli_run *run);
 
 /* Joins the slabs of all ranks to one field; rank 0 prints which time and level was read,
- * if there are several. Collective. Returns an exit code, the same on all. */
+ * if there are several. Closes the input. Collective. Returns an exit code, the same on
+ * all. */
 int input_join(cli_run *run);
 
 /* Creates the run of scales, with the energy of the --energy file if there is one.

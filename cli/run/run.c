@@ -304,10 +304,11 @@ static int work(cli_run *run)
   return ranks_agree(ranks_leader() ? finish_run(run) : EXIT_DONE);
 }
 
-/* A run on one time and level. */
-static int run_once(const run_settings *settings)
+/* A run on one time and level. input: NULL, or the opened one, which is closed. */
+static int run_once(const run_settings *settings, fg_input *input)
 {
   cli_run run = {.settings = settings,
+                 .input = input,
                  .start = clock_seconds(),
                  .output = {.lock = -1},
                  .table = {.file = -1}};
@@ -335,9 +336,15 @@ static int run_once(const run_settings *settings)
   fg_run_destroy(run.scales);
   fg_tensors_destroy(run.tensors);
   fg_field_destroy(run.field);
+  fg_input_close(run.input);
   fg_context_destroy(run.context);
   free(run.checkpoint);
   return code;
+}
+
+static int run_member(const run_settings *settings)
+{
+  return run_once(settings, NULL);
 }
 
 int command_run(const void *given)
@@ -346,13 +353,14 @@ int command_run(const void *given)
   chosen_places places;
   int code = ranks_agree(places_find(&places, &settings.reading, !ranks_leader()));
   if (!code && (places.time.several || places.level.several)) {
-    code = series_run(&settings, &places, run_once);
+    code = series_run(&settings, &places, run_member);
   } else if (!code) {
     settings.reading.time = places.time.index[0];
     settings.reading.level = places.level.index[0];
     code = ranks_agree(ranks_leader() ? series_refuse(settings.output) : EXIT_DONE);
     if (!code)
-      code = run_once(&settings);
+      code = run_once(&settings, places.input);
+    places.input = NULL;
   }
   places_clear(&places);
   return code;

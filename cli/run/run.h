@@ -11,6 +11,7 @@
 typedef struct cli_run {
   const run_settings *settings;
   fg_context *context;
+  fg_input *input; /* NULL: not opened yet, or read */
   fg_field *field;
   fg_tensors *tensors;  /* for the energy, or NULL */
   fg_run *scales;       /* NULL once the evolution has ended */

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "alternatives.h"
 #include "inputs.h"
-#include "sandbox.h"
 
 /* Whether a choice needs no file: none, or an index. */
 static bool is_plain(const char *text)
@@ -44,17 +44,26 @@ static int find_one(fg_selection *out, fg_context *context,
   return EXIT_DONE;
 }
 
-static int read_vector(chosen_places *out, fg_context *context,
-                       const reading_settings *settings)
+/* Opens the input. A failure is left to the reading, unless there is more to find. */
+static int open_input(chosen_places *out, fg_context *context,
+                      const reading_settings *settings, bool has_more)
 {
   const fg_read_options options = settings_reading(settings);
-  if (sandbox_inventory(settings->input, &options))
-    return EXIT_FAILED;
-  fg_status status =
-      fg_inventory_read_chosen(&out->inventory, context, settings->input, &options);
+  const fg_status status = fg_input_open(&out->input, context, settings->input, &options);
+  if (status && has_more)
+    return complain_of(context, status, settings->input);
+  fg_context_clear(context);
+  return EXIT_DONE;
+}
+
+static int find_vector(chosen_places *out, fg_context *context,
+                       const reading_settings *settings)
+{
+  const fg_inventory *inventory;
+  const fg_status status = fg_input_inventory(&inventory, context, out->input);
   if (status)
     return complain_of(context, status, settings->input);
-  out->vector = fg_inventory_vector_at(out->inventory, 0);
+  out->vector = fg_inventory_vector_at(inventory, 0);
   if (out->vector && !out->vector->unusable)
     return EXIT_DONE;
   complain("%s: its times and levels are not known: %s", settings->input,
@@ -62,40 +71,38 @@ static int read_vector(chosen_places *out, fg_context *context,
   return EXIT_FAILED;
 }
 
-/* Finds the default level where none is given, and prints missing coordinates. Failures
- * are left to the reading. */
-static int find_defaults(int *level, fg_context *context,
-                         const reading_settings *settings, bool quiet)
+/* The default level where none is given; prints missing coordinates. Failures are left to
+ * the reading. */
+static int find_level(fg_context *context, fg_input *input,
+                      const reading_settings *settings, bool quiet)
 {
   char words[CLEAN_BYTES];
   fg_read_defaults defaults;
-  const fg_read_options options = settings_reading(settings);
-  *level = 0;
-  if (sandbox_defaults(settings->input, &options))
-    return EXIT_FAILED;
-  if (fg_read_defaults_find(&defaults, context, settings->input, &options)) {
+  if (!input || fg_input_defaults(&defaults, context, input)) {
     fg_context_clear(context);
-    return EXIT_DONE;
+    return 0;
   }
-  *level = settings->level_text ? 0 : defaults.level;
   if (defaults.absent[0] && !quiet)
     fprintf(stderr,
             "flowgrain: %s: its coordinates are not in the file: %s; "
             "--mesh-from names another that has them\n",
             input_name(settings->input), clean_text(words, defaults.absent));
-  return EXIT_DONE;
+  return settings->level_text ? 0 : defaults.level;
 }
 
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet)
 {
-  *out = (chosen_places){.inventory = NULL};
+  const bool has_more = !is_plain(settings->time_text) || !is_plain(settings->level_text);
+  *out = (chosen_places){.input = NULL};
   fg_context *context;
   int code = create_context(&context), level = 0;
   if (code)
     return code;
-  code = find_defaults(&level, context, settings, quiet);
-  if (!code && (!is_plain(settings->time_text) || !is_plain(settings->level_text)))
-    code = read_vector(out, context, settings);
+  code = open_input(out, context, settings, has_more);
+  if (!code)
+    level = find_level(context, out->input, settings, quiet);
+  if (!code && has_more)
+    code = find_vector(out, context, settings);
   const fg_inventory_vector *vector = out->vector;
   if (!code)
     code =
@@ -115,19 +122,26 @@ void places_clear(chosen_places *places)
 {
   fg_selection_clear(&places->time);
   fg_selection_clear(&places->level);
-  fg_inventory_destroy(places->inventory);
-  *places = (chosen_places){.inventory = NULL};
+  fg_input_close(places->input);
+  *places = (chosen_places){.input = NULL};
 }
 
-int places_reading(fg_read_options *out, const reading_settings *settings)
+int places_read(fg_field **out, fg_context *context, const reading_settings *settings)
 {
   chosen_places places;
-  *out = settings_reading(settings);
+  const fg_read_options options = settings_reading(settings);
+  fg_status status = FG_STATUS_OK;
   int code = places_find(&places, settings, false);
-  if (!code) {
-    out->time = places.time.index[0];
-    out->level = places.level.index[0];
-  }
+  *out = NULL;
+  if (!code && !places.input)
+    status = fg_input_open(&places.input, context, settings->input, &options);
+  if (!code && !status)
+    status = fg_input_field(out, context, places.input, places.time.index[0],
+                            places.level.index[0], 0, 1);
+  if (status)
+    code = complain_of_field(context, status, places.input, settings);
+  else if (!code)
+    report_doubts(settings->input, *out);
   places_clear(&places);
   return code;
 }

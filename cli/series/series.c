@@ -13,7 +13,6 @@
 #include "progress.h"
 #include "ranks.h"
 #include "report/series_index.h"
-#include "sandbox.h"
 #include "series/panels.h"
 
 /* The name of a member's folder: "time-0011", "level-003", "time-0011-level-003". */
@@ -93,23 +92,19 @@ static int check_folder(series_index *index, bool *goes_on)
   return *goes_on ? EXIT_DONE : EXIT_FAILED;
 }
 
-static fg_read_options reading_of(const run_settings *settings,
-                                  const series_member *member)
+/* Extends the range by a member's field. Failures are left to the member's run, but for a
+ * file that cannot be read at all. */
+static int add_speeds(double speeds[2], fg_context *context, const series_index *index,
+                      fg_input *input, int number)
 {
-  fg_read_options reading = settings_reading(&settings->reading);
-  reading.time = member->time;
-  reading.level = member->level;
-  return reading;
-}
-
-/* Extends the range by a member's field. Failures are left to the member's run. */
-static void add_speeds(double speeds[2], fg_context *context,
-                       const run_settings *settings, const series_member *member)
-{
-  const fg_read_options reading = reading_of(settings, member);
+  const series_member *member = &index->member[number];
   double range[2];
-  fg_field *field = NULL;
-  fg_status status = fg_field_read(&field, context, settings->reading.input, &reading);
+  fg_field *field;
+  int code = EXIT_DONE;
+  fg_status status =
+      fg_input_field(&field, context, input, member->time, member->level, 0, 1);
+  if (status == FG_STATUS_FILE_ACCESS)
+    code = complain_of(context, status, index->settings->reading.input);
   if (!status)
     status = fg_field_speed_range(range, context, field);
   if (!status) {
@@ -118,10 +113,11 @@ static void add_speeds(double speeds[2], fg_context *context,
   }
   fg_context_clear(context);
   fg_field_destroy(field);
+  return code;
 }
 
 /* Finds the common range of all fields, unless it is given. */
-static int find_speeds(series_index *index)
+static int find_speeds(series_index *index, fg_input *input)
 {
   const run_settings *settings = index->settings;
   fg_context *context;
@@ -132,12 +128,9 @@ static int find_speeds(series_index *index)
   interrupt_start(context);
   cli_progress progress;
   progress_start(&progress, settings->quiet, 0);
-  const fg_read_options first = reading_of(settings, &index->member[0]);
-  if (sandbox_reading(settings->reading.input, &first))
-    code = EXIT_FAILED;
   for (int n = 0; n < index->count && !code && !interrupt_came(); ++n) {
     progress_stage(&progress, "reading the fields' speeds");
-    add_speeds(speeds, context, settings, &index->member[n]);
+    code = add_speeds(speeds, context, index, input, n);
   }
   progress_wipe(&progress);
   interrupt_end();
@@ -173,7 +166,7 @@ static int remove_others(const series_index *index)
 }
 
 /* On rank 0: checks the folder, finds the range, writes the index. */
-static int begin(series_index *index)
+static int begin(series_index *index, fg_input *input)
 {
   bool goes_on;
   int code = check_folder(index, &goes_on);
@@ -181,7 +174,7 @@ static int begin(series_index *index)
     code = panels_remove(index->settings->output);
   if (code || goes_on)
     return code;
-  code = find_speeds(index);
+  code = find_speeds(index, input);
   char *made_from = NULL;
   if (!code)
     code = make_folders(index->settings->output, &made_from);
@@ -250,7 +243,7 @@ int series_run(const run_settings *settings, const chosen_places *places,
   series_index index = {.settings = settings};
   int code = ranks_agree(list_members(&index, places));
   if (!code)
-    code = ranks_agree(ranks_leader() ? begin(&index) : EXIT_DONE);
+    code = ranks_agree(ranks_leader() ? begin(&index, places->input) : EXIT_DONE);
   if (!code)
     code = ranks_agree(
         ranks_leader() ? EXIT_DONE : index_read_speeds(index.speeds, settings->output));

@@ -99,6 +99,10 @@ typedef struct fg_input_options {
                          the content] */
   double most_memory; /* bytes that the samples of a field may take; more: UNSUPPORTED
                          [any number] */
+  bool isolate; /* files that libhdf5 (NetCDF-4) or ecCodes (GRIB) reads are read in a
+                   child process, with bounds of time and memory, as these libraries may
+                   crash or go on for ever where a file's structure is damaged:
+                   FILE_ACCESS. To be set before threads start [read in this process] */
 } fg_input_options;
 
 /* Sets them; what they point to is borrowed. NULL: the defaults. */

@@ -65,9 +65,8 @@ typedef struct fg_read_options {
  * taken; fg_input_options (context.h) limits what the field's samples take. A chunk of a
  * NetCDF-4 file takes 256 MiB at most, once it is inflated, too. But libhdf5, under
  * NetCDF-4, and ecCodes, under GRIB, can crash or go on for ever where a file's structure
- * is damaged, in the process that calls them: such files are best read first by a child
- * process with limits of time and memory, as the program does (cli/sandbox.c). Files are
- * mapped: one that becomes shorter meanwhile is refused, FILE_ACCESS, but it can send
+ * is damaged: fg_input_options.isolate keeps that from the process that calls them. Files
+ * are mapped: one that becomes shorter meanwhile is refused, FILE_ACCESS, but it can send
  * SIGBUS to the process before, which the program ends at (cli/interrupt.c). */
 FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
                                const fg_read_options *options);

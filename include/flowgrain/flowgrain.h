@@ -32,7 +32,7 @@
  * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
- * ranks), field.h, inventory.h, map.h and slabs.h (in), evolution.h, energy.h and
+ * ranks), field.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h, energy.h and
  * checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly N
  * arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
  * rival.h (what to compare with), score.h (how good it is), words.h (suggestions for
@@ -69,6 +69,7 @@
 #include "flowgrain/evolution.h"
 #include "flowgrain/field.h"
 #include "flowgrain/icons.h"
+#include "flowgrain/input.h"
 #include "flowgrain/inventory.h"
 #include "flowgrain/map.h"
 #include "flowgrain/picture.h"

@@ -4,6 +4,13 @@
 
 #include "base/context.h"
 
+/* What a format keeps of an input from call to call: its open files, the chosen vector.
+ */
+typedef struct fg__kept {
+  void *data; /* NULL: nothing yet */
+  void (*close)(void *data);
+} fg__kept;
+
 /* A file to read: its bytes are mapped or in memory, so that a decoder can be fuzzed. A
  * library that wants to open the file itself may use `path` when `on_disk`. */
 typedef struct fg__source {
@@ -11,6 +18,8 @@ typedef struct fg__source {
   bool on_disk;
   const unsigned char *bytes;
   size_t size;
+  fg__kept *kept; /* for calls whose options differ in time and level alone; NULL: a call
+                     keeps nothing */
 } fg__source;
 
 /* Maps a regular file that can be read and is not empty; or gives the context's bytes, as

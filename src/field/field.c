@@ -285,6 +285,14 @@ fg_status fg__field_check_plane(fg_context *context, double normal, double all,
       axis[0], axis[1]);
 }
 
+/* Where no sample is missing every cell is valid, and one that moves is enough. */
+static void count_all_cells(const fg_field *field, size_t cells, fg__slab_counts *counts)
+{
+  counts->cells = counts->valid_cells = cells;
+  for (size_t i = 0; i < counts->samples && !counts->moving_cells; ++i)
+    counts->moving_cells = moves(field, i);
+}
+
 static fg_status fill_whole(fg_field *field, fg_context *context,
                             const fg_field_arrays *arrays, float *taken[3])
 {
@@ -294,19 +302,16 @@ static fg_status fill_whole(fg_field *field, fg_context *context,
   if (status != FG_STATUS_OK)
     return status;
   counts.missing = missing;
-  if (missing == counts.samples)
-    return fg__field_check_counts(context, &counts);
-  if (missing > 0)
-    status = mark_missing(field, context);
   for (int k = 0; k < arrays->dimension; ++k)
     cells *= (size_t)field->axis[k].cells;
-  if (missing > 0 && status == FG_STATUS_OK) {
-    field->valid_cell = fg__allocate(cells, 1);
-    if (!field->valid_cell)
-      status = fg__fail_memory(context, "the cells", cells);
-  }
-  if (status != FG_STATUS_OK)
-    return status;
+  if (missing == 0)
+    count_all_cells(field, cells, &counts);
+  if (missing == 0 || missing == counts.samples)
+    return fg__field_check_counts(context, &counts);
+  status = mark_missing(field, context);
+  field->valid_cell = status == FG_STATUS_OK ? fg__allocate(cells, 1) : NULL;
+  if (!field->valid_cell)
+    return status == FG_STATUS_OK ? fg__fail_memory(context, "the cells", cells) : status;
   find_cells(field, 0, field->held[fg__field_last_axis(field)], field->valid_cell,
              &counts);
   return fg__field_check_counts(context, &counts);
@@ -333,43 +338,44 @@ static fg_status fill_part(fg_field *field, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static bool copy_word(fg_field *field, const char **slot, const char *text,
-                      const char *otherwise)
+const char **fg__arrays_word(fg_field_arrays *arrays, int n)
 {
-  if (!text)
-    text = otherwise;
-  *slot = NULL;
-  if (!text)
-    return true;
-  char *copy = fg__utf8_copy(text);
-  if (!copy)
-    return false;
-  field->word[field->words++] = copy;
-  *slot = copy;
-  return true;
+  const char **const place[FG__FIELD_WORDS] = {&arrays->velocity_name[0],
+                                               &arrays->velocity_name[1],
+                                               &arrays->velocity_name[2],
+                                               &arrays->axis_name[0],
+                                               &arrays->axis_name[1],
+                                               &arrays->axis_name[2],
+                                               &arrays->axis_units[0],
+                                               &arrays->axis_units[1],
+                                               &arrays->axis_units[2],
+                                               &arrays->velocity_units,
+                                               &arrays->title,
+                                               &arrays->time,
+                                               &arrays->level,
+                                               &arrays->projection,
+                                               &arrays->doubts};
+  return place[n];
 }
 
 static fg_status copy_words(fg_field *field, fg_context *context,
                             const fg_field_arrays *arrays)
 {
-  static const char *const component[] = {"u", "v", "w"};
-  static const char *const direction[] = {"x", "y", "z"};
-  fg_field_arrays *own = &field->contents;
-  bool copied = true;
-  for (int k = 0; k < 3; ++k) {
-    copied = copied && copy_word(field, &own->velocity_name[k], arrays->velocity_name[k],
-                                 component[k]);
-    copied = copied &&
-             copy_word(field, &own->axis_name[k], arrays->axis_name[k], direction[k]);
-    copied = copied && copy_word(field, &own->axis_units[k], arrays->axis_units[k], "");
+  static const char *const otherwise[FG__FIELD_WORDS] = {"u", "v", "w", "x", "y", "z",
+                                                         "",  "",  "",  "",  ""};
+  fg_field_arrays given = *arrays;
+  for (int n = 0; n < FG__FIELD_WORDS; ++n) {
+    const char *text = *fg__arrays_word(&given, n);
+    if (!text)
+      text = otherwise[n];
+    char *copy = fg__utf8_copy(text);
+    if (text && !copy)
+      return fg__fail_memory(context, "the field's words", strlen(text) + 1);
+    *fg__arrays_word(&field->contents, n) = copy;
+    if (copy)
+      field->word[field->words++] = copy;
   }
-  copied = copied && copy_word(field, &own->velocity_units, arrays->velocity_units, "");
-  copied = copied && copy_word(field, &own->title, arrays->title, "");
-  copied = copied && copy_word(field, &own->time, arrays->time, NULL);
-  copied = copied && copy_word(field, &own->level, arrays->level, NULL);
-  copied = copied && copy_word(field, &own->projection, arrays->projection, NULL);
-  copied = copied && copy_word(field, &own->doubts, arrays->doubts, NULL);
-  return copied ? FG_STATUS_OK : fg__fail_memory(context, "the field's words", 0);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title)

@@ -44,6 +44,9 @@ struct fg_field {
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */
 };
 
+/* The place of a field's text, n below FG__FIELD_WORDS. */
+const char **fg__arrays_word(fg_field_arrays *arrays, int n);
+
 /* Gives another title to a field that is no window. MEMORY. */
 fg_status fg__field_set_title(fg_field *field, fg_context *context, const char *title);
 

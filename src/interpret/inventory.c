@@ -14,10 +14,7 @@ typedef struct value_list {
 
 typedef struct entry {
   fg_inventory_vector vector;
-  char *name[3];
-  char *units;
-  char *found_by;
-  char *unusable, *frame, *plane, *absent, *chosen, *doubts;
+  char *text[FG__VECTOR_TEXTS];
   value_list time, level;
 } entry;
 
@@ -103,52 +100,46 @@ static void clear_entry(entry *e)
   free(e->time.text);
   free(e->level.value);
   free(e->level.text);
-  for (int k = 0; k < 3; ++k)
-    free(e->name[k]);
-  free(e->units);
-  free(e->found_by);
-  free(e->unusable);
-  free(e->frame);
-  free(e->plane);
-  free(e->absent);
-  free(e->chosen);
-  free(e->doubts);
+  for (int n = 0; n < FG__VECTOR_TEXTS; ++n)
+    free(e->text[n]);
+}
+
+const char **fg__vector_text(fg_inventory_vector *vector, int n)
+{
+  const char **const place[FG__VECTOR_TEXTS] = {
+      &vector->units,        &vector->found_by,    &vector->name[0],
+      &vector->name[1],      &vector->name[2],     &vector->unusable,
+      &vector->frame,        &vector->plane,       &vector->absent,
+      &vector->chosen,       &vector->doubts,      &vector->axis_name[0],
+      &vector->axis_name[1], &vector->axis_name[2]};
+  return place[n];
+}
+
+/* Copies the texts, of which units and found_by are always there. */
+static bool copy_texts(entry *e)
+{
+  enum { ALWAYS_THERE = 2 };
+  bool copied = true;
+  for (int n = 0; n < FG__VECTOR_TEXTS; ++n) {
+    const char **place = fg__vector_text(&e->vector, n);
+    if (!*place && n < ALWAYS_THERE)
+      *place = "";
+    e->text[n] = fg__utf8_copy(*place);
+    copied = copied && (e->text[n] || !*place);
+    *place = e->text[n];
+  }
+  return copied;
 }
 
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
                             const fg_inventory_vector *vector)
 {
   entry e = {.vector = *vector};
-  bool copied = true;
-  for (int k = 0; k < 3; ++k) {
-    e.name[k] = fg__utf8_copy(vector->name[k]);
-    copied = copied && (e.name[k] || !vector->name[k]);
-    e.vector.name[k] = e.name[k];
-  }
-  copied = copied && copy_values(&e.time, vector->time_value, vector->times) &&
-           copy_values(&e.level, vector->level_value, vector->levels);
+  const bool copied = copy_texts(&e) &&
+                      copy_values(&e.time, vector->time_value, vector->times) &&
+                      copy_values(&e.level, vector->level_value, vector->levels);
   e.vector.time_value = e.time.value;
   e.vector.level_value = e.level.value;
-  e.units = fg__utf8_copy(vector->units ? vector->units : "");
-  e.found_by = fg__utf8_copy(vector->found_by ? vector->found_by : "");
-  e.unusable = fg__utf8_copy(vector->unusable);
-  e.frame = fg__utf8_copy(vector->frame);
-  e.plane = fg__utf8_copy(vector->plane);
-  e.absent = fg__utf8_copy(vector->absent);
-  e.chosen = fg__utf8_copy(vector->chosen);
-  e.doubts = fg__utf8_copy(vector->doubts);
-  copied = copied && e.units && e.found_by && (e.unusable || !vector->unusable) &&
-           (e.frame || !vector->frame) && (e.plane || !vector->plane) &&
-           (e.absent || !vector->absent) && (e.chosen || !vector->chosen) &&
-           (e.doubts || !vector->doubts);
-  e.vector.units = e.units;
-  e.vector.found_by = e.found_by;
-  e.vector.unusable = e.unusable;
-  e.vector.frame = e.frame;
-  e.vector.plane = e.plane;
-  e.vector.absent = e.absent;
-  e.vector.chosen = e.chosen;
-  e.vector.doubts = e.doubts;
   void *entries = inventory->entries;
   if (!copied ||
       !fg__grow(&entries, &inventory->capacity, inventory->count + 1, sizeof e)) {

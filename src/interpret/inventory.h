@@ -15,6 +15,10 @@ void fg__doubt(char doubts[FG__REASON_BYTES], const char *format, ...)
 void fg__set_unusable(char reason[FG__REASON_BYTES], const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* The place of a vector's text, n below FG__VECTOR_TEXTS. */
+enum { FG__VECTOR_TEXTS = 14 };
+const char **fg__vector_text(fg_inventory_vector *vector, int n);
+
 /* Makes an empty inventory of a file in a format of that name. MEMORY. */
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format);

@@ -1,5 +1,5 @@
 /* Fields, spheres and inventories of datasets, whichever format they are of. */
-#include "read/dataset.h"
+#include "read/vector_choice.h"
 
 #include "field/slab.h"
 #include "map/project.h"
@@ -13,69 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-
-/* Whether two paths lead to one file. */
-static bool is_one_file(const char *path, const char *other)
-{
-  struct stat a, b;
-  return stat(path, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev &&
-         a.st_ino == b.st_ino;
-}
-
-static fg_status add_file(fg__dataset *data, fg_context *context,
-                          const fg__dataset_format *format, const char *path)
-{
-  fg__source source;
-  for (int n = 0; n < data->files; ++n)
-    if (is_one_file(path, data->file[n].path))
-      return fg__fail(context, FG_STATUS_ARGUMENT, "%s: is given twice", path);
-  fg_status status = fg__source_open(&source, context, path);
-  if (status == FG_STATUS_OK && !format->is_mine(source.bytes, source.size))
-    status = fg__fail(context, FG_STATUS_FILE_FORMAT,
-                      "%s: is no %s file like the first one", path, format->name);
-  if (status == FG_STATUS_OK)
-    status = fg__dataset_open(data, context, format, &source, NULL);
-  return fg__source_close(&source, context, status);
-}
-
-/* Whether positions of a curvilinear grid, its angle or its mask are in a file. */
-static bool uses_file(const fg__curvilinear *mesh, int number)
-{
-  const fg__variable *all[] = {mesh->centre.variable, mesh->part[0].longitude,
-                               mesh->part[1].longitude, mesh->angle[0], mesh->mask};
-  for (size_t n = 0; n < sizeof all / sizeof *all; ++n)
-    if (all[n] && all[n]->file == number)
-      return true;
-  return false;
-}
-
-/* A further file of which neither a component, the mesh nor the mask is used is refused
- * as the wrong one. */
-static fg_status check_used(const fg__dataset *data, int number, const fg__pair *pair,
-                            const fg__grid *grid, const char *mask)
-{
-  const fg__variable *masked = mask ? fg__dataset_find(data, mask) : NULL;
-  const bool mesh = number >= data->component_files;
-  bool used = (masked && masked->file == number) ||
-              (mesh && data->file[number].was_read) ||
-              (grid->mesh && uses_file(grid->mesh, number)) ||
-              (grid->unstructured && fg__unstructured_file(grid->unstructured) == number);
-  for (int k = 0; k < 2; ++k)
-    used = used || pair->component[k]->file == number;
-  used = used || (pair->component[2] && pair->component[2]->file == number);
-  if (used)
-    return FG_STATUS_OK;
-  fg__fail(data->context, FG_STATUS_ARGUMENT,
-           mesh ? "%s: gives no position: '%.200s' and '%.200s' lie on the grid of %s"
-                : "%s: gives no component: '%.200s' and '%.200s' are both of %s",
-           data->file[number].path, pair->component[0]->name, pair->component[1]->name,
-           pair->component[0]->path);
-  fg__hint(data->context,
-           mesh ? "leave out --mesh-from"
-                : "name one of its variables with --vars, or leave out --vars-from");
-  return FG_STATUS_ARGUMENT;
-}
 
 static fg_status check_index(const fg__dataset *data, const char *what, int index,
                              int position, size_t count, const char *name)
@@ -184,88 +121,54 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
   return FG_STATUS_ARGUMENT;
 }
 
-/* Opens the source and selects the pair; grid and file have to be cleared, also after a
- * failure. */
-static fg_status choose(fg__dataset *data, fg__pair *pair, fg__grid *grid,
-                        fg_context *context, const fg__dataset_format *format,
-                        const fg__source *source, const fg_read_options *options)
+static fg_status check_places(const fg__vector_choice *c, const fg_read_options *options)
 {
-  fg_status status = fg__dataset_open(data, context, format, source, options);
+  const fg__grid *grid = &c->grid;
+  fg_status status = check_index(&c->data, "time", options->time, grid->time, grid->times,
+                                 grid->time_name);
   if (status == FG_STATUS_OK)
-    status = fg__missing_read(&data->missing, context, options->missing);
-  if (status == FG_STATUS_OK && options->vars_from) {
-    status = add_file(data, context, format, options->vars_from);
-    data->component_files = 2;
-  }
-  if (status == FG_STATUS_OK && options->mesh_from)
-    status = add_file(data, context, format, options->mesh_from);
-  if (status == FG_STATUS_OK && options->at)
-    status = fg__choose_samples(data, options->at);
-  if (status == FG_STATUS_OK)
-    status = fg__choose_vector(pair, grid, data, options);
-  return status == FG_STATUS_OK ? fg__check_choices(data, pair) : status;
-}
-
-/* The same, with time and level of the options checked. */
-static fg_status open_chosen(fg__dataset *data, fg__pair *pair, fg__grid *grid,
-                             fg_context *context, const fg__dataset_format *format,
-                             const fg__source *source, const fg_read_options *options)
-{
-  fg_status status = choose(data, pair, grid, context, format, source, options);
-  for (int n = 1; n < data->files && status == FG_STATUS_OK; ++n)
-    status = check_used(data, n, pair, grid, options->mask);
-  if (status == FG_STATUS_OK)
-    status = check_index(data, "time", options->time, grid->time, grid->times,
-                         grid->time_name);
-  if (status == FG_STATUS_OK)
-    status = check_level(data, grid, options->level);
-  return status == FG_STATUS_OK ? fg__check_samples(data, pair, grid, options) : status;
-}
-
-/* Closes what choose() or open_chosen() has opened. */
-static fg_status close_chosen(fg__dataset *data, fg__grid *grid, fg_status status)
-{
-  fg__grid_clear(grid);
-  return fg__dataset_end(data, status);
+    status = check_level(&c->data, grid, options->level);
+  return status == FG_STATUS_OK ? fg__check_samples(&c->data, &c->pair, &c->grid, options)
+                                : status;
 }
 
 fg_status fg__dataset_read(fg_field **out, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source,
                            const fg_read_options *options, fg__slab_index slab)
 {
-  fg__dataset data = {0};
-  fg__pair pair = {0};
-  fg__grid grid = {0};
+  fg__vector_choice *c;
   fg__sphere *sphere = NULL;
-  fg_status status = open_chosen(&data, &pair, &grid, context, format, source, options);
-  if (status == FG_STATUS_OK && grid.mesh) {
-    status = fg__sphere_read(&sphere, &data, &pair, &grid, options);
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh) {
+    status = fg__sphere_read(&sphere, &c->data, &c->pair, &c->grid, options);
     if (status == FG_STATUS_OK)
       status = fg__globe_field(out, context, sphere, slab);
-  } else if (status == FG_STATUS_OK && grid.unstructured) {
-    status = fg__unstructured_field(out, &data, &pair, &grid, options, slab);
-  } else if (status == FG_STATUS_OK && grid.domain) {
-    status = fg__space_field(out, &data, &pair, &grid, options, slab);
+  } else if (status == FG_STATUS_OK && c->grid.unstructured) {
+    status = fg__unstructured_field(out, &c->data, &c->pair, &c->grid, options, slab);
+  } else if (status == FG_STATUS_OK && c->grid.domain) {
+    status = fg__space_field(out, &c->data, &c->pair, &c->grid, options, slab);
   } else if (status == FG_STATUS_OK) {
-    status = make_field(out, &data, &pair, &grid, options, slab);
+    status = make_field(out, &c->data, &c->pair, &c->grid, options, slab);
   }
   fg__sphere_destroy(sphere);
-  return close_chosen(&data, &grid, status);
+  return fg__vector_choice_leave(c, status);
 }
 
 fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
                              const fg__dataset_format *format, const fg__source *source,
                              const fg_read_options *options)
 {
-  fg__dataset data = {0};
-  fg__pair pair = {0};
-  fg__grid grid = {0};
-  fg_status status = open_chosen(&data, &pair, &grid, context, format, source, options);
-  if (status == FG_STATUS_OK && grid.mesh)
-    status = fg__sphere_read(out, &data, &pair, &grid, options);
-  else if (status == FG_STATUS_OK && grid.unstructured)
-    status = fg__unstructured_sphere(out, &data, &pair, &grid, options);
-  return close_chosen(&data, &grid, status);
+  fg__vector_choice *c;
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = check_places(c, options);
+  if (status == FG_STATUS_OK && c->grid.mesh)
+    status = fg__sphere_read(out, &c->data, &c->pair, &c->grid, options);
+  else if (status == FG_STATUS_OK && c->grid.unstructured)
+    status = fg__unstructured_sphere(out, &c->data, &c->pair, &c->grid, options);
+  return fg__vector_choice_leave(c, status);
 }
 
 /* Adds a vector with its times and levels. */
@@ -446,26 +349,22 @@ fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
                                 const fg__dataset_format *format,
                                 const fg__source *source, const fg_read_options *options)
 {
+  fg__vector_choice *c;
   if (!options)
     return describe_all(inventory, context, format, source);
-  fg__dataset data = {0};
-  fg__pair pair = {0};
-  fg__grid grid = {0};
-  fg_status status = choose(&data, &pair, &grid, context, format, source, options);
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
-    status = describe_grid(inventory, &data, &pair, &grid, options, false);
-  return close_chosen(&data, &grid, status);
+    status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
+  return fg__vector_choice_leave(c, status);
 }
 
 fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
                                const fg__dataset_format *format, const fg__source *source,
                                const fg_read_options *options)
 {
-  fg__dataset data = {0};
-  fg__pair pair = {0};
-  fg__grid grid = {0};
-  fg_status status = choose(&data, &pair, &grid, context, format, source, options);
+  fg__vector_choice *c;
+  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
-    status = fg__defaults_find(out, &data, &pair, &grid, options);
-  return close_chosen(&data, &grid, status);
+    status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
+  return fg__vector_choice_leave(c, status);
 }

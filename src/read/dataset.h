@@ -25,6 +25,9 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
                            const fg_read_options *options);
 fg_status fg__dataset_end(fg__dataset *data, fg_status status);
 
+/* `status`, or that of a file which has become shorter while it was read. */
+fg_status fg__dataset_check(const fg__dataset *data, fg_status status);
+
 /* The functions of fg__format. options: NULL for all vectors. */
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
                                 const fg__dataset_format *format,

@@ -45,89 +45,71 @@ static fg_status check_projection(fg_context *context, const char *path,
   return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: %s", path, message);
 }
 
-/* All ranks need the whole field, for their rows of the map lie across its own. *on_map:
- * it was laid on the map, else *out is as it was read. */
-static fg_status project(fg_field **out, bool *on_map, fg_context *context,
-                         const fg__format *format, const fg__source *source,
-                         const fg_read_options *options, fg__slab_index slab)
+/* Projects a longitude-latitude field, or one on a plane, to the options' map. */
+static fg_status project(fg_field **out, fg_context *context, const fg_field *field,
+                         const char *path, const fg_map_options *map, fg__slab_index slab)
 {
-  fg_field *field = NULL;
+  const fg_field_arrays *arrays = fg_field_contents(field);
+  const bool on_plane = arrays->scale == FG_SCALE_MAP;
   fg__sphere *sphere = NULL;
   fg_status status =
-      format->read(&field, context, source, options, (fg__slab_index){0, 1});
-  if (status == FG_STATUS_OK && !goes_on_map(field, options->map)) {
-    *out = field;
-    return FG_STATUS_OK;
-  }
-  *on_map = true;
-  if (status == FG_STATUS_OK)
-    status = fg_field_contents(field)->scale == FG_SCALE_MAP
-                 ? check_projection(context, source->path,
-                                    fg_field_contents(field)->projection)
-                 : FG_STATUS_OK;
-  if (status == FG_STATUS_OK)
-    status = fg_field_contents(field)->scale == FG_SCALE_MAP
-                 ? fg__sphere_of_plane(&sphere, context, field)
-                 : fg__sphere_of_field(&sphere, context, field);
+      on_plane ? check_projection(context, path, arrays->projection) : FG_STATUS_OK;
   if (status == FG_STATUS_OK)
     status =
-        fg__sphere_project(out, context, sphere, options->map, slab.number, slab.count);
+        (on_plane ? fg__sphere_of_plane : fg__sphere_of_field)(&sphere, context, field);
+  if (status == FG_STATUS_OK)
+    status = fg__sphere_project(out, context, sphere, map, slab.number, slab.count);
   fg__sphere_destroy(sphere);
-  fg_field_destroy(field);
   return status;
 }
 
-static fg_status read_on_map(fg_field **out, fg_context *context,
-                             const fg__format *format, const fg__source *source,
-                             const fg_read_options *options, fg__slab_index slab)
+fg_status fg__file_field_read(fg__file_field *out, fg_context *context,
+                              const fg__format *format, const fg__source *source,
+                              const fg_read_options *options, fg__slab_index slab)
 {
-  fg_status status = FG_STATUS_OK;
-  bool on_map = false;
-  if (slab.count > 1) {
-    status = format->read(out, context, source, options, slab);
-    if (status == FG_STATUS_OK && goes_on_map(*out, options->map)) {
-      fg_field_destroy(*out);
-      *out = NULL;
-    }
+  *out = (fg__file_field){.field = NULL};
+  if (format->sphere) {
+    const fg_status status = format->sphere(&out->sphere, context, source, options);
+    if (status != FG_STATUS_OK || out->sphere)
+      return status;
   }
-  if (status == FG_STATUS_OK && !*out)
-    status = project(out, &on_map, context, format, source, options, slab);
-  if (status == FG_STATUS_OK && fg__map_is_named(options->map) && !on_map) {
-    status = refuse(context, source->path, *out);
-    fg_field_destroy(*out);
-    *out = NULL;
-  }
-  return status;
+  const fg_status status = format->read(&out->field, context, source, options, slab);
+  if (status != FG_STATUS_OK || slab.count == 1 || !fg__map_is_asked(options->map) ||
+      !goes_on_map(out->field, options->map))
+    return status;
+  /* the rows that a rank has of a map lie across those of all ranks */
+  fg__file_field_clear(out);
+  return format->read(&out->field, context, source, options, (fg__slab_index){0, 1});
 }
 
-fg_status fg__field_read_known(fg_field **out, fg_context *context,
-                               const fg__format *format, const fg__source *source,
+fg_status fg__file_field_place(fg_field **out, fg_context *context,
+                               fg__file_field *samples, const char *path,
                                const fg_read_options *options, fg__slab_index slab)
 {
-  const bool on_map = fg__map_is_asked(options->map);
-  fg__sphere *sphere = NULL;
+  const fg_map_options *map = fg__map_is_asked(options->map) ? options->map : NULL;
+  fg_status status = FG_STATUS_OK;
   *out = NULL;
-  fg_status status =
-      format->sphere ? format->sphere(&sphere, context, source, options) : FG_STATUS_OK;
-  if (status != FG_STATUS_OK) {
-    fg__sphere_destroy(sphere);
-    return status;
-  }
-  if (sphere && on_map)
+  if (samples->sphere && map)
     status =
-        fg__sphere_project(out, context, sphere, options->map, slab.number, slab.count);
-  else if (sphere)
-    status = fg__globe_field(out, context, sphere, slab);
-  else if (on_map)
-    status = read_on_map(out, context, format, source, options, slab);
-  else
-    status = format->read(out, context, source, options, slab);
-  fg__sphere_destroy(sphere);
-  if (status == FG_STATUS_OK)
-    status = check_projection(context, source->path, fg_field_contents(*out)->projection);
-  if (status != FG_STATUS_OK) {
-    fg_field_destroy(*out);
-    *out = NULL;
+        fg__sphere_project(out, context, samples->sphere, map, slab.number, slab.count);
+  else if (samples->sphere)
+    status = fg__globe_field(out, context, samples->sphere, slab);
+  else if (map && goes_on_map(samples->field, map))
+    status = project(out, context, samples->field, path, map, slab);
+  else if (fg__map_is_named(map))
+    status = refuse(context, path, samples->field);
+  else {
+    *out = samples->field;
+    samples->field = NULL;
   }
+  if (status == FG_STATUS_OK)
+    status = check_projection(context, path, fg_field_contents(*out)->projection);
   return status;
+}
+
+void fg__file_field_clear(fg__file_field *samples)
+{
+  fg__sphere_destroy(samples->sphere);
+  fg_field_destroy(samples->field);
+  *samples = (fg__file_field){.field = NULL};
 }

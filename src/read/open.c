@@ -36,7 +36,7 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
 }
 
 /* Files but the first, which the caller has opened, may have become shorter. */
-fg_status fg__dataset_end(fg__dataset *data, fg_status status)
+fg_status fg__dataset_check(const fg__dataset *data, fg_status status)
 {
   for (int n = 0; n < data->files; ++n) {
     const fg__dataset_file *file = &data->file[n];
@@ -45,6 +45,12 @@ fg_status fg__dataset_end(fg__dataset *data, fg_status status)
     if (file->state && file->decoder->check)
       status = file->decoder->check(file->state, status);
   }
+  return status;
+}
+
+fg_status fg__dataset_end(fg__dataset *data, fg_status status)
+{
+  status = fg__dataset_check(data, status);
   fg__space_domain_close(data);
   fg__dataset_close(data);
   return status;

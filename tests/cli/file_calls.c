@@ -8,7 +8,8 @@
  * FILE_CALLS_DO is kill, a signal (INT, TERM, HUP), which is sent once, or full: from
  * that call on nothing can be written.
  *
- * FILE_CALLS_LOG is a file that gets the number of calls when the program ends.
+ * FILE_CALLS_LOG is a file that gets the number of calls when the program ends, and
+ * FILE_CALLS_FORKS one that gets the number of child processes.
  *
  * FILE_CALLS_SHORTEN, "NAME BYTES": a file with that name in its path is cut to so many
  * bytes as soon as it is mapped into memory. */
@@ -24,7 +25,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static atomic_long calls;
+static atomic_long calls, forks;
 
 static void find_path(char name[4096], int file)
 {
@@ -83,14 +84,20 @@ static int comes(const char *path, int file, int takes_space)
   return 1;
 }
 
-__attribute__((destructor)) static void log_calls(void)
+static void write_log(const char *name, long count)
 {
-  const char *log = getenv("FILE_CALLS_LOG");
+  const char *log = getenv(name);
   FILE *stream = log ? fopen(log, "w") : NULL;
   if (!stream)
     return;
-  fprintf(stream, "%ld\n", (long)calls);
+  fprintf(stream, "%ld\n", count);
   fclose(stream);
+}
+
+__attribute__((destructor)) static void log_calls(void)
+{
+  write_log("FILE_CALLS_LOG", calls);
+  write_log("FILE_CALLS_FORKS", forks);
 }
 
 /* Sets a function's pointer to what the program would have called. */
@@ -98,6 +105,14 @@ static void find(void *next, const char *name)
 {
   void *found = dlsym(RTLD_NEXT, name);
   memcpy(next, &found, sizeof found);
+}
+
+pid_t fork(void)
+{
+  pid_t (*next)(void);
+  find(&next, "fork");
+  ++forks;
+  return next();
 }
 
 static void shorten(int file)

@@ -186,6 +186,14 @@ for input in no-such.nc broken.nc plain . /dev/null; do
   done_with "unreadable input: $input"
 done
 
+# choice, field and the number of levels are asked for
+cp "$root/tests/fuzz/corpus/netcdf/seed-members4.nc" members.nc
+with_calls none 0 run members.nc -o once --nodes 65 --clusters 3 --level 1
+expect_code 0
+expect_error 'members.nc: level 1 of 0 to 1'
+[ "$(cat forks)" = 1 ] || fault "$(cat forks) processes have read it"
+done_with "one child process reads a file of HDF5"
+
 # the size of an object in the heap of strings: HDF5 1.10 stays at one of no bytes for ever
 cp "$root/tests/fuzz/corpus/netcdf/seed-netcdf4.nc" endless.nc
 printf '\0' | dd of=endless.nc bs=1 seek=5347 conv=notrunc 2>dd.err

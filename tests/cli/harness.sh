@@ -136,13 +136,15 @@ expect_only_results() {
 
 # with_calls WHAT AT ARGUMENTS...: as try, and at that call of those that change files, of a
 # number or on a path with a name, the program is killed or gets a signal, or from it on the
-# disk is full (file_calls.c). A shell's background jobs ignore the interrupt.
+# disk is full (file_calls.c); the files calls and forks get their numbers. A shell's
+# background jobs ignore the interrupt.
 with_calls() {
   local what=$1 at=$2
   shift 2
   : "${FILE_CALLS:?is to name libfile_calls.so, as ctest does}"
   # a sanitizer would insist on being loaded first
   { env --default-signal=INT FILE_CALLS_DO="$what" FILE_CALLS_AT="$at" FILE_CALLS_LOG="$PWD/calls" \
+    FILE_CALLS_FORKS="$PWD/forks" \
     ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
     LD_PRELOAD="$FILE_CALLS" "$program" "$@" >out 2>err; } 2>/dev/null
   code=$?
