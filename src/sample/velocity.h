@@ -24,6 +24,9 @@ fg_status fg__velocity_missing(double *share, const fg__dataset *data,
 
 void fg__velocity_samples_clear(fg__velocity_samples *samples);
 
+/* The share of samples that lack a component, at the first time and level that have
+ * both. Statuses of fg__velocity_samples_read. */
+
 /* Rotates the components of some rows to the directions of the projection's plane. */
 fg_status fg__projection_turn(float *const velocity[2], const fg__dataset *data,
                               const fg__grid *grid, const fg__rows *rows);
