@@ -270,21 +270,6 @@ fg_status fg__field_check_counts(fg_context *context, const fg__slab_counts *cou
   return FG_STATUS_OK;
 }
 
-/* Of single precision and its sums: a smaller share of squares is rounding. */
-static const double NO_SHARE = 1e-12;
-
-fg_status fg__field_check_plane(fg_context *context, double normal, double all,
-                                const char *const axis[2])
-{
-  if (!(all > 0.0) || normal < (1.0 - NO_SHARE) * all)
-    return FG_STATUS_OK;
-  return fg__fail(
-      context, FG_STATUS_ARGUMENT,
-      "field: all vectors are normal to the plane of %s and %s, so that there "
-      "is nothing of them in it",
-      axis[0], axis[1]);
-}
-
 /* Where no sample is missing every cell is valid, and one that moves is enough. */
 static void count_all_cells(const fg_field *field, size_t cells, fg__slab_counts *counts)
 {

@@ -4,6 +4,7 @@
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
+#include "sample/layers.h"
 #include "sample/missing.h"
 #include "sample/space/space.h"
 #include "sample/unstructured/mesh.h"
@@ -57,6 +58,12 @@ static void keep_missing(const fg_field *field, const fg__velocity_samples *read
   }
 }
 
+static bool has_two_layers(const fg__grid *grid)
+{
+  return grid->dimension == 3 &&
+         (grid->axis[0].size == 2 || grid->axis[1].size == 2 || grid->axis[2].size == 2);
+}
+
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg_read_options *options,
                             fg__slab_index slab)
@@ -65,7 +72,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
   const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
-  if (last->period > 0.0)
+  if (last->period > 0.0 || has_two_layers(grid))
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
   fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
@@ -105,7 +112,9 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
       keep_missing(*out, &read);
   }
   fg__velocity_samples_clear(&read);
-  return status;
+  return status == FG_STATUS_OK && has_two_layers(grid)
+             ? fg__drop_layer(out, data->context)
+             : status;
 }
 
 static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int level)
@@ -169,6 +178,19 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
   else if (status == FG_STATUS_OK && c->grid.unstructured)
     status = fg__unstructured_sphere(out, &c->data, &c->pair, &c->grid, options);
   return fg__vector_choice_leave(c, status);
+}
+
+/* Two layers of a volume may be a plane. */
+static void describe_layers(fg_inventory_vector *vector, const fg__dataset *data,
+                            const fg__pair *pair, const fg__grid *grid)
+{
+  const fg_read_options first = fg__first_samples(pair, grid);
+  fg_field *field = NULL;
+  if (make_field(&field, data, pair, grid, &first, (fg__slab_index){0, 1}))
+    fg_context_clear(data->context);
+  if (field && fg_field_contents(field)->dimension == 2)
+    fg__describe_field(vector, field);
+  fg_field_destroy(field);
 }
 
 /* Adds a vector with its times and levels. */
@@ -246,8 +268,11 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
     return fg__curvilinear_describe(vector, data, pair, grid);
   if (grid->unstructured)
     return fg__unstructured_describe(vector, data, pair, grid);
-  return grid->domain ? fg__space_count(vector, data, pair, grid)
-                      : fg__missing_share(&vector->missing_share, data, pair, grid);
+  if (grid->domain)
+    return fg__space_count(vector, data, pair, grid);
+  if (has_two_layers(grid))
+    describe_layers(vector, data, pair, grid);
+  return fg__velocity_missing(&vector->missing_share, data, pair, grid);
 }
 
 /* Takes the message of a refusal, without the file's name, and its hint. */

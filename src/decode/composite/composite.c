@@ -28,6 +28,9 @@ static const struct {
              {"vtkPartitionedDataSetCollection", BLOCKS, false, false},
              {"Collection", COLLECTION, false, false}};
 
+/* Instead of a place in TYPES: a grid, or a list in JSON. */
+enum { NO_TYPE = -1, SERIES = -2 };
+
 /* The reading of a file and all that it names. */
 typedef struct composite {
   fg__dataset *data;
@@ -73,14 +76,14 @@ static fg_status check_seen(composite *c, const char *path, const char *by)
   return FG_STATUS_OK;
 }
 
-/* Which kind of file has been parsed: its place in TYPES; -1 for a grid. */
+/* Which kind of file has been parsed: its place in TYPES. */
 static int find_type(fg__vtk *vtk)
 {
   const xmlNode *root = xmlDocGetRootElement(vtk->document);
   for (int i = 0; root && i < (int)(sizeof TYPES / sizeof TYPES[0]); ++i)
     if (fg__vtk_attribute_is(vtk, root, "type", TYPES[i].type))
       return i;
-  return -1;
+  return NO_TYPE;
 }
 
 static fg_status read_named(composite *c, fg__vtk *vtk, int type);
@@ -95,14 +98,16 @@ static fg_status read_file(composite *c, fg__vtk_file *file, file_kind above)
     return status;
   *vtk = (fg__vtk){
       .context = whole->context, .path = file->path, .file_size = file->source.size};
+  if (fg__is_vtk_legacy(file->source.bytes, file->source.size))
+    return fg__vtk_read_legacy(vtk, &file->source);
   if (!fg__is_vtk_xml(file->source.bytes, file->source.size))
-    return fg__fail(whole->context, FG_STATUS_FILE_FORMAT, "%s: is no VTK XML file",
+    return fg__fail(whole->context, FG_STATUS_FILE_FORMAT, "%s: is no VTK file",
                     file->path);
   status = fg__vtk_parse(vtk, &file->source);
   if (status != FG_STATUS_OK)
     return status;
   const int type = find_type(vtk);
-  if (type < 0)
+  if (type == NO_TYPE)
     return fg__vtk_read_document(vtk);
   if (TYPES[type].kind >= above)
     return fg__fail(whole->context, FG_STATUS_FILE_FORMAT,
@@ -168,6 +173,15 @@ static fg_status keep_whole(composite *c, fg__vtk *vtk, int type, const xmlNode 
   return FG_STATUS_OK;
 }
 
+static fg_status open_files(composite *c, fg__vtk *by, const fg__vtk_names *list,
+                            file_kind above)
+{
+  fg_status status = FG_STATUS_OK;
+  for (size_t i = 0; i < list->count && status == FG_STATUS_OK; ++i)
+    status = open_file(c, by, list->entry[i].file, above);
+  return status;
+}
+
 /* Reads what the file names. */
 static fg_status read_named(composite *c, fg__vtk *vtk, int type)
 {
@@ -191,8 +205,22 @@ static fg_status read_named(composite *c, fg__vtk *vtk, int type)
     c->several = c->several || list.count > 1;
   if (status == FG_STATUS_OK && kind == PIECES)
     status = keep_whole(c, vtk, type, grid);
-  for (size_t i = 0; i < list.count && status == FG_STATUS_OK; ++i)
-    status = open_file(c, vtk, list.entry[i].file, kind);
+  if (status == FG_STATUS_OK)
+    status = open_files(c, vtk, &list, kind);
+  fg__vtk_names_clear(&list);
+  return status;
+}
+
+/* The same of a list in JSON, which is a collection. */
+static fg_status read_series(composite *c, const fg__source *source)
+{
+  fg__vtk_names list = {0};
+  fg_status status = fg__vtk_names_of_series(&list, c->whole, source);
+  if (status == FG_STATUS_OK)
+    status = choose_time(c, &list, c->whole->path);
+  c->several = list.count > 1;
+  if (status == FG_STATUS_OK)
+    status = open_files(c, c->whole, &list, COLLECTION);
   fg__vtk_names_clear(&list);
   return status;
 }
@@ -310,24 +338,32 @@ static fg_status read_composite(composite *c, const fg__source *source, int type
   }
   fg_status status = check_seen(c, source->path, source->path);
   if (status == FG_STATUS_OK)
-    status = read_named(c, c->whole, type);
+    status = type == SERIES ? read_series(c, source) : read_named(c, c->whole, type);
   return status == FG_STATUS_OK ? join(c) : status;
+}
+
+static fg_status read_any(composite *c, const fg__source *source)
+{
+  int type = SERIES;
+  if (!fg__is_vtk_series(source->bytes, source->size)) {
+    const fg_status status = fg__vtk_parse(c->whole, source);
+    if (status != FG_STATUS_OK)
+      return status;
+    type = find_type(c->whole);
+  }
+  return type == NO_TYPE ? fg__vtk_read_document(c->whole)
+                         : read_composite(c, source, type);
 }
 
 fg_status fg__vtk_open(fg__dataset *data, fg_context *context, const fg__source *source,
                        const fg_read_options *options)
 {
-  fg__vtk *vtk = NULL;
-  fg_status status = fg__vtk_begin(&vtk, data, context, source);
+  composite c = {.data = data, .options = options};
+  fg_status status = fg__vtk_begin(&c.whole, data, context, source);
   if (status == FG_STATUS_OK)
-    status = fg__vtk_parse(vtk, source);
-  if (status == FG_STATUS_OK) {
-    const int type = find_type(vtk);
-    composite c = {.data = data, .whole = vtk, .options = options};
-    status = type < 0 ? fg__vtk_read_document(vtk) : read_composite(&c, source, type);
-    free(c.seen);
-  }
-  if (vtk && vtk->exhausted)
+    status = read_any(&c, source);
+  free(c.seen);
+  if (c.whole && c.whole->exhausted)
     return FG_STATUS_MEMORY;
-  return status == FG_STATUS_OK ? fg__vtk_fill(data, vtk) : status;
+  return status == FG_STATUS_OK ? fg__vtk_fill(data, c.whole) : status;
 }

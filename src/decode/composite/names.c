@@ -23,8 +23,8 @@ void fg__vtk_names_clear(fg__vtk_names *list)
 }
 
 /* Takes `file` over. */
-static fg_status add_named(fg__vtk_names *list, fg__vtk *vtk, char *file,
-                           const char *block, double time)
+fg_status fg__vtk_names_add(fg__vtk_names *list, fg__vtk *vtk, char *file,
+                            const char *block, double time)
 {
   void *entries = list->entry;
   char *copy = fg__copy_text(block);
@@ -49,7 +49,7 @@ fg_status fg__vtk_names_of_pieces(fg__vtk_names *out, fg__vtk *vtk, const xmlNod
     char *file =
         fg__vtk_is_element(node, "Piece") ? fg__vtk_attribute(vtk, node, "Source") : NULL;
     if (file)
-      status = add_named(out, vtk, file, "", 0.0);
+      status = fg__vtk_names_add(out, vtk, file, "", 0.0);
   }
   return status;
 }
@@ -72,7 +72,7 @@ fg_status fg__vtk_names_of_times(fg__vtk_names *out, fg__vtk *vtk,
     char *file = fg__vtk_attribute(vtk, node, "file");
     char *group = fg__vtk_attribute(vtk, node, "group");
     if (file)
-      status = add_named(out, vtk, file, group ? group : "", time);
+      status = fg__vtk_names_add(out, vtk, file, group ? group : "", time);
     free(group);
   }
   return status;
@@ -110,7 +110,7 @@ static fg_status list_blocks(fg__vtk_names *out, fg__vtk *vtk, const xmlNode *pa
       return FG_STATUS_MEMORY;
     char *file = leaf ? fg__vtk_attribute(vtk, node, "file") : NULL;
     if (file)
-      status = add_named(out, vtk, file, name, 0.0);
+      status = fg__vtk_names_add(out, vtk, file, name, 0.0);
     else if (!leaf)
       status = list_blocks(out, vtk, node, name, depth + 1);
     free(name);

@@ -27,6 +27,15 @@ fg_status fg__vtk_names_of_blocks(fg__vtk_names *out, fg__vtk *vtk,
 fg_status fg__vtk_names_of_times(fg__vtk_names *out, fg__vtk *vtk,
                                  const xmlNode *collection);
 
+/* Adds one, whose `file` is taken over. */
+fg_status fg__vtk_names_add(fg__vtk_names *names, fg__vtk *vtk, char *file,
+                            const char *block, double time);
+
+/* series.c. Adds those that a list in JSON names; without a time it is the place in it.
+ * FILE_FORMAT, MEMORY. */
+fg_status fg__vtk_names_of_series(fg__vtk_names *names, fg__vtk *vtk,
+                                  const fg__source *source);
+
 /* Keeps the files of one of the times, which ascend from 0 on and become the dataset's.
  * ARGUMENT, MEMORY. */
 fg_status fg__vtk_names_choose_time(fg__dataset *data, fg__vtk_names *names,

@@ -8,14 +8,19 @@
 #include "base/memory.h"
 #include "decode/vtk/vtk.h"
 
+/* An array's numbers. */
+typedef struct numbers {
+  double *of;
+  size_t count;
+} numbers;
+
 /* Which numbers are the corners of the cells, one after the other. */
 typedef struct cell_list {
-  fg__vtk_values corners, types, ends;
-  size_t at, end;   /* of the cell's among the corners */
-  bool counted;     /* each cell begins with the number of its corners */
+  numbers corners, types, ends;
+  numbers faces, face_ends; /* of polyhedra, none else */
+  size_t at, end;           /* of the cell's among the corners */
+  size_t face_at;           /* where those of the next one begin */
   size_t first_end; /* in `ends`: 1 where these begin with the first cell's beginning */
-  fg__vtk_values faces, face_ends; /* of polyhedra, none else */
-  size_t face_at;                  /* where those of the next one begin */
 } cell_list;
 
 static bool is_polyhedron(double type)
@@ -23,85 +28,54 @@ static bool is_polyhedron(double type)
   return type >= FG__POLYHEDRON && type <= FG__POLYHEDRON;
 }
 
-static fg_status fail_corners(const fg__vtk *vtk, const cell_list *t, size_t cell)
-{
-  return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                  "%s: the corners of cell %zu are not within those %zu that there are",
-                  vtk->path, cell, t->corners.count);
-}
-
+/* Finds the corners of a cell: each begins with their number, or `ends` says. */
 static fg_status next_cell(cell_list *t, const fg__vtk *vtk, size_t cell)
 {
   double end = -1.0;
   t->at = t->end;
-  if (t->counted && t->at < t->corners.count) {
-    end = fg__vtk_value(&t->corners, t->at++);
+  if (t->ends.of) {
+    end = t->ends.of[cell + t->first_end];
+  } else if (t->at < t->corners.count) {
+    end = t->corners.of[t->at++];
     end = end >= 0.0 ? end + (double)t->at : -1.0;
-  } else if (!t->counted) {
-    end = fg__vtk_value(&t->ends, cell + t->first_end);
   }
   if (!(end >= (double)t->at && end <= (double)t->corners.count))
-    return fail_corners(vtk, t, cell);
+    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                    "%s: the corners of cell %zu are not within those %zu that there are",
+                    vtk->path, cell, t->corners.count);
   t->end = (size_t)end;
   return FG_STATUS_OK;
 }
 
-/* Room for a cell's corners, any number for polygons. */
-typedef struct corner_room {
-  double *corner;
-  size_t capacity;
-} corner_room;
-
-/* The numbers that tell a polyhedron's faces: [t->face_at, *end). */
-static fg_status find_faces(size_t *end, const fg__vtk *vtk, const cell_list *t,
-                            size_t cell)
-{
-  const double last = fg__vtk_value(&t->face_ends, cell);
-  if (!(last >= (double)t->face_at && last <= (double)t->faces.count))
-    return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                    "%s: the faces of cell %zu are not within those %zu numbers that "
-                    "there are",
-                    vtk->path, cell, t->faces.count);
-  *end = (size_t)last;
-  return FG_STATUS_OK;
-}
-
-/* Adds cell `cell` of the list. */
 static fg_status add_cell(fg__dataset *data, const fg__vtk *vtk, cell_list *t,
-                          size_t cell, double type, const fg__piece_points *points,
-                          corner_room *room)
+                          size_t cell, double type, const fg__piece_points *points)
 {
-  const bool solid = t->faces.count > 0 && is_polyhedron(type);
-  const size_t corners = t->end - t->at;
-  size_t faces_end = t->face_at;
-  fg_status status = solid ? find_faces(&faces_end, vtk, t, cell) : FG_STATUS_OK;
-  const size_t numbers = faces_end - t->face_at;
-  if (status != FG_STATUS_OK)
-    return status;
-  void *all = room->corner;
-  if (!fg__grow(&all, &room->capacity, corners + numbers, sizeof *room->corner))
-    return fg__fail_memory(vtk->context, "a cell",
-                           (corners + numbers) * sizeof *room->corner);
-  room->corner = all;
-  for (size_t i = 0; i < corners; ++i)
-    room->corner[i] = fg__vtk_value(&t->corners, t->at + i);
-  for (size_t i = 0; i < numbers; ++i)
-    room->corner[corners + i] = fg__vtk_value(&t->faces, t->face_at + i);
-  t->face_at = faces_end;
+  const size_t face = t->face_at;
+  if (t->faces.count > 0 && is_polyhedron(type)) {
+    const double last = t->face_ends.of[cell];
+    if (!(last >= (double)face && last <= (double)t->faces.count))
+      return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: the faces of cell %zu are not within those %zu numbers that "
+                      "there are",
+                      vtk->path, cell, t->faces.count);
+    t->face_at = (size_t)last;
+  }
   return fg__topology_add(
       data, type >= 0.0 && type <= 255.0 && floor(type) >= type ? (int)type : 255,
-      room->corner, corners, room->corner + corners, numbers, points);
+      t->corners.of + t->at, t->end - t->at, t->faces.of ? t->faces.of + face : NULL,
+      t->face_at - face, points);
 }
 
 /* Reads an array of a piece that no other may share bytes with: *room is what the file
  * still has for such. */
-static fg_status read_own(fg__vtk_values *out, const fg__vtk *vtk, size_t array,
-                          size_t tuples, size_t *room)
+static fg_status read_own(numbers *out, const fg__vtk *vtk, size_t array, size_t tuples,
+                          size_t *room)
 {
   if (array >= vtk->array_count)
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: a piece lacks an array",
                     vtk->path);
   size_t stored = 0;
+  fg__vtk_values values = {0};
   fg_status status = fg__vtk_values_check(vtk, &vtk->arrays[array], tuples, &stored);
   if (status == FG_STATUS_OK && stored > *room)
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
@@ -110,17 +84,26 @@ static fg_status read_own(fg__vtk_values *out, const fg__vtk *vtk, size_t array,
   if (status != FG_STATUS_OK)
     return status;
   *room -= stored;
-  return fg__vtk_values_create(out, vtk, &vtk->arrays[array], tuples);
+  status = fg__vtk_values_create(&values, vtk, &vtk->arrays[array], tuples);
+  if (status != FG_STATUS_OK)
+    return status;
+  out->count = values.count;
+  out->of = fg__allocate(out->count, sizeof *out->of);
+  for (size_t i = 0; i < out->count && out->of; ++i)
+    out->of[i] = fg__vtk_value(&values, i);
+  fg__vtk_values_clear(&values);
+  return out->of ? FG_STATUS_OK
+                 : fg__fail_memory(vtk->context, "an array of the file", out->count * 8);
 }
 
 /* How many corners an XML piece has is what the last end says. */
 static fg_status find_corner_count(size_t *out, const fg__vtk *file,
-                                   const fg__vtk_list *list, const cell_list *t)
+                                   const fg__vtk_list *list, const numbers *ends)
 {
   *out = list->corner_numbers;
   if (*out > 0)
     return FG_STATUS_OK;
-  const double last = fg__vtk_value(&t->ends, t->ends.count - 1);
+  const double last = ends->of[ends->count - 1];
   if (!(last >= 0.0 && last <= INT_MAX))
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                     "%s: a piece's cells have %g corners", file->path, last);
@@ -129,12 +112,12 @@ static fg_status find_corner_count(size_t *out, const fg__vtk *file,
 }
 
 /* Reads as many numbers of an array as the largest of `ends` says. */
-static fg_status read_up_to(fg__vtk_values *out, const fg__vtk *file, size_t array,
-                            const fg__vtk_values *ends, double more, size_t *room)
+static fg_status read_up_to(numbers *out, const fg__vtk *file, size_t array,
+                            const numbers *ends, double more, size_t *room)
 {
   double most = 0.0;
   for (size_t i = 0; i < ends->count; ++i)
-    most = fmax(most, fg__vtk_value(ends, i) + more);
+    most = fmax(most, ends->of[i] + more);
   if (!(most >= 1.0 && most <= INT_MAX))
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                     "%s: a piece's polyhedra have %g numbers of faces", file->path, most);
@@ -153,50 +136,46 @@ static bool is_part(size_t part[2], double from, double to, size_t all)
 
 /* Adds a face that is apart to `faces`; false where it is not there, or where faces have
  * had more points than twice all: a face is that of two cells at most. */
-static bool add_face(fg__vtk_values *faces, size_t *used, const fg__vtk_values of[4],
-                     double number)
+static bool add_face(numbers *faces, size_t *used, const numbers of[4], double number)
 {
-  double *out = (double *)(void *)faces->bytes;
   size_t corners[2];
   if (!(number >= 0.0 && number < (double)of[1].count))
     return false;
   const size_t f = (size_t)number;
-  if (!is_part(corners, f > 0 ? fg__vtk_value(&of[1], f - 1) : 0.0,
-               fg__vtk_value(&of[1], f), of[0].count))
+  if (!is_part(corners, f > 0 ? of[1].of[f - 1] : 0.0, of[1].of[f], of[0].count))
     return false;
-  *used += corners[1] - corners[0];
+  const size_t count = corners[1] - corners[0];
+  *used += count;
   if (*used > 2 * of[0].count)
     return false;
-  out[faces->count++] = (double)(corners[1] - corners[0]);
-  for (size_t n = corners[0]; n < corners[1]; ++n)
-    out[faces->count++] = fg__vtk_value(&of[0], n);
+  faces->of[faces->count++] = (double)count;
+  memcpy(faces->of + faces->count, of[0].of + corners[0], count * sizeof *faces->of);
+  faces->count += count;
   return true;
 }
 
 /* Brings faces that are apart, `of` in the order of list->apart, into those of each
  * polyhedron. */
-static fg_status join_faces(cell_list *t, const fg__vtk *file, const fg__vtk_values of[4])
+static fg_status join_faces(cell_list *t, const fg__vtk *file, const numbers of[4])
 {
   const size_t cells = of[3].count, room = 2 * of[0].count + of[2].count + cells;
-  double *face = fg__allocate(room, sizeof *face),
-         *end = fg__allocate(cells, sizeof *end);
-  t->faces = (fg__vtk_values){(unsigned char *)face, FG__TYPE_FLOAT64, 0, 0};
-  t->face_ends = (fg__vtk_values){(unsigned char *)end, FG__TYPE_FLOAT64, 0, cells};
-  if (!face || !end)
-    return fg__fail_memory(file->context, "faces", (room + cells) * sizeof *face);
+  t->faces.of = fg__allocate(room, sizeof *t->faces.of);
+  t->face_ends.of = fg__allocate(cells, sizeof *t->face_ends.of);
+  if (!t->faces.of || !t->face_ends.of)
+    return fg__fail_memory(file->context, "faces", (room + cells) * sizeof(double));
   size_t used = 0, part[2] = {0, 0};
   for (size_t c = 0; c < cells; ++c) {
-    bool good = is_part(part, (double)part[1], fg__vtk_value(&of[3], c), of[2].count);
+    bool good = is_part(part, (double)part[1], of[3].of[c], of[2].count);
     if (good && part[1] > part[0])
-      face[t->faces.count++] = (double)(part[1] - part[0]);
+      t->faces.of[t->faces.count++] = (double)(part[1] - part[0]);
     for (size_t i = part[0]; good && i < part[1]; ++i)
-      good = add_face(&t->faces, &used, of, fg__vtk_value(&of[2], i));
+      good = add_face(&t->faces, &used, of, of[2].of[i]);
     if (!good)
       return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                       "%s: the faces of cell %zu, a polyhedron, are not within those %zu "
                       "that there are, or are those of more than one other",
                       file->path, c, of[1].count);
-    end[c] = (double)t->faces.count;
+    t->face_ends.of[c] = (double)t->faces.count;
   }
   return FG_STATUS_OK;
 }
@@ -204,7 +183,7 @@ static fg_status join_faces(cell_list *t, const fg__vtk *file, const fg__vtk_val
 static fg_status read_apart(cell_list *t, const fg__vtk *file, const fg__vtk_list *list,
                             size_t *room)
 {
-  fg__vtk_values of[4] = {{0}};
+  numbers of[4] = {{0}};
   fg_status status = read_own(&of[3], file, list->apart[3], list->cells, room);
   for (int k = 2; k >= 0 && status == FG_STATUS_OK; --k)
     status =
@@ -212,7 +191,7 @@ static fg_status read_apart(cell_list *t, const fg__vtk *file, const fg__vtk_lis
   if (status == FG_STATUS_OK)
     status = join_faces(t, file, of);
   for (int k = 0; k < 4; ++k)
-    fg__vtk_values_clear(&of[k]);
+    free(of[k].of);
   return status;
 }
 
@@ -221,8 +200,8 @@ static fg_status read_faces(cell_list *t, const fg__vtk *file, const fg__vtk_lis
                             size_t *room)
 {
   bool some = false, apart = true;
-  for (size_t c = 0; c < list->cells && list->types != FG__VTK_NONE; ++c)
-    some = some || is_polyhedron(fg__vtk_value(&t->types, c));
+  for (size_t c = 0; c < t->types.count; ++c)
+    some = some || is_polyhedron(t->types.of[c]);
   for (int k = 0; k < 4; ++k)
     apart = apart && list->apart[k] != FG__VTK_NONE;
   if (some && apart)
@@ -239,19 +218,16 @@ static fg_status read_list(fg__dataset *data, const fg__vtk *file,
                            const fg__vtk_list *list, const fg__piece_points *points,
                            size_t *room)
 {
-  cell_list t = {.counted = list->ends == FG__VTK_NONE,
-                 .first_end = list->end_numbers > list->cells ? 1 : 0};
-  corner_room of_cell = {NULL, 0};
+  cell_list t = {.first_end = list->end_numbers > list->cells ? 1 : 0};
   size_t corners = 0;
-  const bool typed = list->types != FG__VTK_NONE;
   fg_status status = FG_STATUS_OK;
-  if (typed)
+  if (list->types != FG__VTK_NONE)
     status = read_own(&t.types, file, list->types, list->cells, room);
-  if (status == FG_STATUS_OK && !t.counted)
+  if (status == FG_STATUS_OK && list->ends != FG__VTK_NONE)
     status = read_own(&t.ends, file, list->ends,
                       list->end_numbers > 0 ? list->end_numbers : list->cells, room);
   if (status == FG_STATUS_OK)
-    status = find_corner_count(&corners, file, list, &t);
+    status = find_corner_count(&corners, file, list, &t.ends);
   if (status == FG_STATUS_OK)
     status = read_own(&t.corners, file, list->corners, corners, room);
   if (status == FG_STATUS_OK)
@@ -260,15 +236,13 @@ static fg_status read_list(fg__dataset *data, const fg__vtk *file,
     status = next_cell(&t, file, c);
     if (status == FG_STATUS_OK)
       status =
-          add_cell(data, file, &t, c, typed ? fg__vtk_value(&t.types, c) : list->type,
-                   points, &of_cell);
+          add_cell(data, file, &t, c, t.types.of ? t.types.of[c] : list->type, points);
   }
-  free(of_cell.corner);
-  fg__vtk_values_clear(&t.types);
-  fg__vtk_values_clear(&t.ends);
-  fg__vtk_values_clear(&t.corners);
-  fg__vtk_values_clear(&t.faces);
-  fg__vtk_values_clear(&t.face_ends);
+  free(t.types.of);
+  free(t.ends.of);
+  free(t.corners.of);
+  free(t.faces.of);
+  free(t.face_ends.of);
   return status;
 }
 
@@ -405,11 +379,11 @@ static void imply_positions(double *out, const fg__vtk *file, const fg__vtk_piec
 static fg_status read_positions(fg__topology *cells, const fg__vtk *file,
                                 const fg__vtk_piece *piece, size_t points, size_t *room)
 {
-  fg__vtk_values values = {0};
+  numbers own = {0};
   const bool implied = file->turned || file->kind == FG__VTK_ALONG_AXES;
   fg_status status = FG_STATUS_OK;
   if (!implied)
-    status = read_own(&values, file, piece->positions, points, room);
+    status = read_own(&own, file, piece->positions, points, room);
   if (status != FG_STATUS_OK)
     return status;
   double *position =
@@ -420,9 +394,9 @@ static fg_status read_positions(fg__topology *cells, const fg__vtk *file,
     status = fg__fail_memory(file->context, "points", points * 3 * sizeof *position);
   if (position && implied)
     imply_positions(position + 3 * cells->points, file, piece);
-  for (size_t i = 0; position && !implied && i < 3 * points; ++i)
-    position[3 * cells->points + i] = fg__vtk_value(&values, i);
-  fg__vtk_values_clear(&values);
+  else if (position)
+    memcpy(position + 3 * cells->points, own.of, 3 * points * sizeof *position);
+  free(own.of);
   return status;
 }
 

@@ -233,11 +233,35 @@ static fg_status fetch_box(const wanted_numbers *w)
   return status;
 }
 
+/* Of points alone: their coordinates, or an array's component. */
+static fg_status fetch_column(const fg__variable *v, fg__vtk *vtk, size_t start,
+                              size_t count, double *out)
+{
+  const fg__vtk_piece *first = &vtk->pieces[0];
+  if (v->id < 0) {
+    for (size_t n = 0; n < count; ++n)
+      out[n] = v->owner->space.cells.position[3 * (start + n) + (size_t)v->place];
+    return FG_STATUS_OK;
+  }
+  const wanted_numbers w = {
+      .vtk = vtk,
+      .name = fg__vtk_home(vtk, 0)->arrays[first->first_array + (size_t)v->id].name,
+      .place = FG__VTK_POINTS,
+      .component = (size_t)v->place,
+      .origin = {start},
+      .size = {count},
+      .out = out};
+  const fg_status status = check_pieces(&w);
+  return status == FG_STATUS_OK ? fetch_listed(&w) : status;
+}
+
 fg_status fg__vtk_fetch(const fg__variable *variable, const size_t *start,
                         const size_t *count, double *out)
 {
   const fg__dataset *data = variable->owner;
   fg__vtk *vtk = data->file[variable->file].state;
+  if (!data->space.is_there)
+    return fetch_column(variable, vtk, start[0], count[0], out);
   if (variable->location == FG__ON_GRID) {
     for (size_t i = 0; i < count[0]; ++i)
       out[i] = fg__vtk_coordinate(vtk, variable->id, start[0] + i);

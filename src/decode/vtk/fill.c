@@ -2,8 +2,11 @@
 #include "base/memory.h"
 #include "decode/vtk/vtk.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { MOST_COLUMNS = 9 }; /* of an array: a tensor's */
 
 static void close_file(void *state)
 {
@@ -140,6 +143,75 @@ static fg_status add_arrays(fg__dataset *data, const fg__vtk *vtk)
   return status;
 }
 
+/* Whether there are points alone, each a vertex. */
+static bool are_scattered(const fg__topology *cells)
+{
+  enum { VERTEX = 1, SEVERAL_VERTICES = 2 };
+  size_t c = 0;
+  while (c < cells->cells &&
+         (cells->type[c] == VERTEX || cells->type[c] == SEVERAL_VERTICES))
+    ++c;
+  return c > 0 && c == cells->cells;
+}
+
+static fg_status add_column(fg__dataset *data, const char *name, fg__type type, int array,
+                            int component)
+{
+  fg__variable *v = fg__dataset_add_variable(data, "", name);
+  if (!v)
+    return FG_STATUS_MEMORY;
+  v->type = type;
+  v->rank = 1;
+  v->dimension[0] = (int)data->dimension_count - 1;
+  v->id = array;
+  v->place = component;
+  return FG_STATUS_OK;
+}
+
+/* Coordinates that differ. */
+static fg_status add_places(fg__dataset *data)
+{
+  static const char *const names[] = {"x", "y", "z"};
+  const fg__topology *cells = &data->space.cells;
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k) {
+    const double *position = cells->position + k;
+    size_t n = 1;
+    while (n < cells->points && !(position[3 * n] < *position) &&
+           !(position[3 * n] > *position))
+      ++n;
+    if (n < cells->points)
+      status = add_column(data, names[k], FG__TYPE_FLOAT64, -1, k);
+  }
+  return status;
+}
+
+/* Points alone are columns as ParaView saves them in tables: a component of a vector U is
+ * "U:0". */
+static fg_status add_columns(fg__dataset *data, const fg__vtk *vtk)
+{
+  const fg__vtk *file = fg__vtk_home(vtk, 0);
+  fg__dimension *points =
+      fg__dataset_add_dimension(data, "point", data->space.cells.points);
+  if (!points)
+    return FG_STATUS_MEMORY;
+  points->is_nameless = true;
+  fg_status status = add_places(data);
+  for (size_t n = 0; n < vtk->pieces[0].array_count; ++n) {
+    const fg__vtk_array *array = &file->arrays[vtk->pieces[0].first_array + n];
+    for (int c = 0;
+         c < array->components && c < MOST_COLUMNS && array->place == FG__VTK_POINTS &&
+         !array->no_velocity && status == FG_STATUS_OK;
+         ++c) {
+      char name[FG__NAME_BYTES];
+      snprintf(name, sizeof name, array->components > 1 ? "%.400s:%d" : "%.400s",
+               array->name, c);
+      status = add_column(data, name, array->type, (int)n, c);
+    }
+  }
+  return status;
+}
+
 fg_status fg__vtk_fill(fg__dataset *data, fg__vtk *vtk)
 {
   fg_status status = FG_STATUS_OK;
@@ -151,6 +223,11 @@ fg_status fg__vtk_fill(fg__dataset *data, fg__vtk *vtk)
   else
     status = fg__vtk_read_coordinates(vtk);
   data->space.on_axes = vtk->kind == FG__VTK_ALONG_AXES;
+  if (status == FG_STATUS_OK && !data->space.on_axes &&
+      are_scattered(&data->space.cells)) {
+    data->space.is_there = false;
+    return add_columns(data, vtk);
+  }
   if (status == FG_STATUS_OK)
     status = add_dimensions(data, vtk);
   if (status == FG_STATUS_OK)

@@ -54,120 +54,97 @@ static fg_status add_array(legacy_file *file, fg__vtk_array **out, char *name,
   return fg__legacy_take(&file->cursor, *out, type, tuples * (size_t)components);
 }
 
-/* The same of one that the file says is no velocity. */
-static fg_status add_other(legacy_file *file, char *name, const char *type,
-                           int components, size_t tuples)
+static fg_status read_word(fg__legacy_cursor *c, char word[FG__LEGACY_WORD],
+                           const char *what, const char *after)
 {
-  fg__vtk_array *array = NULL;
-  fg_status status = add_array(file, &array, name, type, components, tuples);
-  if (status == FG_STATUS_OK)
-    array->no_velocity = true;
-  return status;
+  return fg__legacy_word(c, word) ? FG_STATUS_OK : fg__legacy_fail(c, what, after);
 }
 
-static fg_status read_type(fg__legacy_cursor *c, char type[FG__LEGACY_WORD],
-                           const char *name)
+/* The first vectors are the active ones, as VTK has it; several may be meant. */
+static fg_status mark_vectors(legacy_file *file, const char *name)
 {
-  return fg__legacy_word(c, type) ? FG_STATUS_OK
-                                  : fg__legacy_fail(c, "no type of array", name);
-}
-
-static fg_status read_name_and_type(fg__legacy_cursor *c, char name[FG__LEGACY_WORD],
-                                    char type[FG__LEGACY_WORD])
-{
-  return fg__legacy_word(c, name) && fg__legacy_word(c, type)
-             ? FG_STATUS_OK
-             : fg__legacy_fail(c, "no name and type of an array after", name);
-}
-
-static fg_status read_name_and_count(fg__legacy_cursor *c, char name[FG__LEGACY_WORD],
-                                     int *count, int least, const char *what)
-{
-  return fg__legacy_word(c, name) ? fg__legacy_whole(c, count, least, what)
-                                  : fg__legacy_fail(c, "no name after", name);
-}
-
-/* NAME TYPE. The first vectors are the active ones, as VTK has it; several may be meant.
- */
-static fg_status read_vectors(legacy_file *file)
-{
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
-  fg__vtk_array *array = NULL;
-  fg_status status = read_name_and_type(&file->cursor, name, type);
-  if (status == FG_STATUS_OK)
-    status = add_array(file, &array, name, type, 3, file->tuples);
-  if (status != FG_STATUS_OK)
-    return status;
   char **active = &file->vtk->vectors[file->place];
   free(*active);
   *active = NULL;
   if (file->named_vectors[file->place]++ > 0)
     return FG_STATUS_OK;
-  *active = fg__copy_text(array->name);
-  return *active ? FG_STATUS_OK
-                 : fg__fail_memory(file->cursor.context, "an array's name",
-                                   strlen(array->name) + 1);
+  *active = fg__copy_text(name);
+  return *active
+             ? FG_STATUS_OK
+             : fg__fail_memory(file->cursor.context, "an array's name", strlen(name) + 1);
 }
 
-/* NAME TYPE [COMPONENTS], then in most files a line that names a table of colours. */
-static fg_status read_scalars(legacy_file *file)
+/* A number of components may stand in the line; then in most files comes a line that
+ * names a table of colours. */
+static fg_status read_rest_of_scalars(fg__legacy_cursor *c, int *components)
 {
-  fg__legacy_cursor *c = &file->cursor;
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD], word[FG__LEGACY_WORD];
-  int components = 1;
-  fg_status status = read_name_and_type(c, name, type);
-  if (status != FG_STATUS_OK)
-    return status;
+  char word[FG__LEGACY_WORD];
+  fg_status status = FG_STATUS_OK;
   if (fg__legacy_word_of_line(c, word)) {
     c->at -= strlen(word);
-    status = fg__legacy_whole(c, &components, 1, "a number of components");
-    if (status != FG_STATUS_OK)
-      return status;
+    status = fg__legacy_whole(c, components, 1, "a number of components");
   }
   fg__legacy_cursor ahead = *c;
   fg__legacy_skip_line(&ahead);
   if (fg__legacy_word_of_line(&ahead, word) && fg__legacy_is(word, "LOOKUP_TABLE"))
     *c = ahead;
-  fg__vtk_array *array;
-  return add_array(file, &array, name, type, components, file->tuples);
-}
-
-/* NAME and a number, of colours (times four) or of components a sample. In binary the
- * colours are bytes. */
-static fg_status read_colors(legacy_file *file, bool table)
-{
-  char name[FG__LEGACY_WORD];
-  int count = 0;
-  fg_status status =
-      read_name_and_count(&file->cursor, name, &count, 1, "a number of colours");
-  if (status == FG_STATUS_OK)
-    status = add_other(file, name, file->cursor.binary ? "unsigned_char" : "float",
-                       table ? 4 : count, table ? (size_t)count : file->tuples);
   return status;
 }
 
-/* NAME COMPONENTS TYPE: coordinates of a texture. */
-static fg_status read_texture(legacy_file *file)
-{
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
-  int components = 0;
-  fg_status status =
-      read_name_and_count(&file->cursor, name, &components, 1, "a number of components");
-  if (status == FG_STATUS_OK)
-    status = read_type(&file->cursor, type, name);
-  if (status == FG_STATUS_OK)
-    status = add_other(file, name, type, components, file->tuples);
-  return status;
-}
+typedef enum attribute_kind {
+  SCALARS,
+  VECTORS,
+  OTHER,
+  COLORS,
+  COLOR_TABLE
+} attribute_kind;
 
-/* NAME TYPE, and so many components. */
-static fg_status read_other(legacy_file *file, int components)
+/* What is said of points or cells. Words: the array's name, then its type (t) and a
+ * number of components (c) in this order; without a type they are colours, in binary
+ * bytes. */
+static const struct {
+  const char *keyword, *words;
+  int components;
+  attribute_kind kind;
+} ATTRIBUTES[] = {{"SCALARS", "t", 1, SCALARS},
+                  {"VECTORS", "t", 3, VECTORS},
+                  {"NORMALS", "t", 3, OTHER},
+                  {"TENSORS", "t", 9, OTHER},
+                  {"TENSORS6", "t", 6, OTHER},
+                  {"GLOBAL_IDS", "t", 1, OTHER},
+                  {"PEDIGREE_IDS", "t", 1, OTHER},
+                  {"EDGE_FLAGS", "t", 1, OTHER},
+                  {"TEXTURE_COORDINATES", "ct", 0, OTHER},
+                  {"COLOR_SCALARS", "c", 0, COLORS},
+                  {"LOOKUP_TABLE", "c", 0, COLOR_TABLE}};
+
+static fg_status read_attribute_of(legacy_file *file, size_t n)
 {
-  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD];
-  fg_status status = read_name_and_type(&file->cursor, name, type);
+  fg__legacy_cursor *c = &file->cursor;
+  char name[FG__LEGACY_WORD], type[FG__LEGACY_WORD] = "float";
+  const attribute_kind kind = ATTRIBUTES[n].kind;
+  int components = ATTRIBUTES[n].components;
+  size_t tuples = file->tuples;
+  fg__vtk_array *array = NULL;
+  fg_status status = read_word(c, name, "no name after", ATTRIBUTES[n].keyword);
+  if (c->binary)
+    strcpy(type, "unsigned_char");
+  for (const char *w = ATTRIBUTES[n].words; *w && status == FG_STATUS_OK; ++w)
+    status = *w == 't' ? read_word(c, type, "no type of array", name)
+                       : fg__legacy_whole(c, &components, 1,
+                                          "a number of components or colours");
+  if (status == FG_STATUS_OK && kind == SCALARS)
+    status = read_rest_of_scalars(c, &components);
+  if (kind == COLOR_TABLE) { /* so many colours of four numbers */
+    tuples = (size_t)components;
+    components = 4;
+  }
   if (status == FG_STATUS_OK)
-    status = add_other(file, name, type, components, file->tuples);
-  return status;
+    status = add_array(file, &array, name, type, components, tuples);
+  if (status != FG_STATUS_OK)
+    return status;
+  array->no_velocity = kind >= OTHER;
+  return kind == VECTORS ? mark_vectors(file, array->name) : FG_STATUS_OK;
 }
 
 /* COMPONENTS TUPLES TYPE, after a name. */
@@ -181,7 +158,7 @@ static fg_status read_field_array(legacy_file *file, char *name)
   if (status == FG_STATUS_OK)
     status = fg__legacy_whole(c, &tuples, 0, "a number of tuples");
   if (status == FG_STATUS_OK)
-    status = read_type(c, type, name);
+    status = read_word(c, type, "no type of array", name);
   if (status == FG_STATUS_OK)
     status = add_array(file, &array, name, type, components > 0 ? components : 1,
                        components > 0 ? (size_t)tuples : 0);
@@ -194,7 +171,9 @@ static fg_status read_field_block(legacy_file *file)
   fg__legacy_cursor *c = &file->cursor;
   char name[FG__LEGACY_WORD];
   int arrays = 0;
-  fg_status status = read_name_and_count(c, name, &arrays, 0, "a number of arrays");
+  fg_status status = read_word(c, name, "no name after", "FIELD");
+  if (status == FG_STATUS_OK)
+    status = fg__legacy_whole(c, &arrays, 0, "a number of arrays");
   for (int i = 0; i < arrays && status == FG_STATUS_OK; ++i) {
     if (!fg__legacy_word(c, name))
       return fg__legacy_fail(c, "no name of an array after", name);
@@ -253,7 +232,7 @@ static fg_status read_coordinates(legacy_file *file)
       return fg__fail(c->context, FG_STATUS_FILE_FORMAT,
                       "%s: %d coordinates along %c for %d points", c->path, count,
                       "xyz"[k], points);
-    status = read_type(c, word, keyword[k]);
+    status = read_word(c, word, "no type of array", keyword[k]);
     if (status != FG_STATUS_OK)
       return status;
     char name[] = "coordinates";
@@ -363,22 +342,9 @@ static fg_status begin_section(legacy_file *file, fg__vtk_place place)
 
 static fg_status read_attribute(legacy_file *file, const char *keyword)
 {
-  static const struct {
-    const char *keyword;
-    int components;
-  } others[] = {{"NORMALS", 3},    {"TENSORS", 9},      {"TENSORS6", 6},
-                {"GLOBAL_IDS", 1}, {"PEDIGREE_IDS", 1}, {"EDGE_FLAGS", 1}};
-  if (fg__legacy_is(keyword, "SCALARS"))
-    return read_scalars(file);
-  if (fg__legacy_is(keyword, "VECTORS"))
-    return read_vectors(file);
-  if (fg__legacy_is(keyword, "COLOR_SCALARS") || fg__legacy_is(keyword, "LOOKUP_TABLE"))
-    return read_colors(file, fg__legacy_is(keyword, "LOOKUP_TABLE"));
-  if (fg__legacy_is(keyword, "TEXTURE_COORDINATES"))
-    return read_texture(file);
-  for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
-    if (fg__legacy_is(keyword, others[i].keyword))
-      return read_other(file, others[i].components);
+  for (size_t n = 0; n < sizeof ATTRIBUTES / sizeof *ATTRIBUTES; ++n)
+    if (fg__legacy_is(keyword, ATTRIBUTES[n].keyword))
+      return read_attribute_of(file, n);
   return fg__legacy_fail(&file->cursor, "an unknown keyword", keyword);
 }
 
@@ -451,26 +417,29 @@ static fg_status read_header(legacy_file *file)
   return FG_STATUS_OK;
 }
 
-fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
-                              const fg__source *source, const fg_read_options *options)
+fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source)
 {
-  (void)options;
   const uint16_t one = 1;
-  fg__vtk *vtk = NULL;
-  fg_status status = fg__vtk_begin(&vtk, data, context, source);
-  if (status != FG_STATUS_OK)
-    return status;
   vtk->swap = *(const unsigned char *)&one == 1; /* files are big-endian */
   for (int k = 0; k < 3; ++k)
     vtk->spacing[k] = 1.0;
   legacy_file file = {.vtk = vtk,
-                      .cursor = {.context = context,
-                                 .path = source->path,
+                      .cursor = {.context = vtk->context,
+                                 .path = vtk->path,
                                  .bytes = (const char *)source->bytes,
                                  .size = source->size},
                       .place = FG__VTK_FIELD};
-  status = read_header(&file);
+  const fg_status status = read_header(&file);
+  return status == FG_STATUS_OK ? read_sections(&file) : status;
+}
+
+fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
+                              const fg__source *source, const fg_read_options *options)
+{
+  fg__vtk *vtk = NULL;
+  fg_status status = fg__vtk_begin(&vtk, data, context, source);
+  (void)options;
   if (status == FG_STATUS_OK)
-    status = read_sections(&file);
+    status = fg__vtk_read_legacy(vtk, source);
   return status == FG_STATUS_OK ? fg__vtk_fill(data, vtk) : status;
 }

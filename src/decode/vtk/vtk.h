@@ -138,6 +138,9 @@ fg_status fg__vtk_begin(fg__vtk **out, fg__dataset *data, fg_context *context,
                         const fg__source *source);
 fg_status fg__vtk_fill(fg__dataset *data, fg__vtk *vtk);
 
+/* Takes a legacy file apart, into a state that is otherwise empty. */
+fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source);
+
 /* Open a file and add what it holds; the dataset has to be closed also after a failure.
  * Of files that name others (composite/) the options choose time and block. FILE_FORMAT,
  * UNSUPPORTED, ARGUMENT, FILE_ACCESS, MEMORY. */

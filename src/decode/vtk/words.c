@@ -122,7 +122,7 @@ fg_status fg__vtk_add_words(fg__dataset *data, const fg__vtk *vtk)
   static const char *const texts[] = {"Scale", "Projection", "TimeWords", "LevelWords"};
   const fg__vtk *first = vtk->file_count > 0 ? vtk->files[0].vtk : vtk;
   fg__variable *group = &data->groups[data->group_count - 1];
-  const bool legacy = !vtk->document; /* VisIt's name for it there */
+  const bool legacy = !first->document; /* VisIt's name for it there */
   fg_status status = add_number(group, first, "TimeValue", "TimeValue");
   if (status == FG_STATUS_OK && legacy && group->attributes == 0)
     status = add_number(group, first, "TimeValue", "TIME");

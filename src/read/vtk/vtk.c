@@ -21,7 +21,7 @@ const fg__format fg__format_vti = {
     .files =
         "VTK XML images, rectilinear, curvilinear and unstructured grids and planes "
         "(.vti, .vtr, .vts, .vtu, .vtp), legacy files of them (.vtk), and files that "
-        "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd)",
+        "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd, .series)",
     .is_mine = fg__is_vtk_xml,
     .inventory = inventory_hook,
     .inventory_chosen = chosen_hook,

@@ -90,6 +90,15 @@ static void add_squares(double sum[2], float *const velocity[3], size_t i)
   sum[1] += isfinite(all) ? all : 0.0;
 }
 
+static bool moves_in_plane(float *const velocity[3], size_t count)
+{
+  for (size_t i = 0; i < count; ++i)
+    for (int k = 0; k < 2; ++k)
+      if (isfinite(velocity[k][i]) && velocity[k][i] != 0.0f)
+        return true;
+  return false;
+}
+
 static void clear(float *velocity[3], double *axis[3])
 {
   for (int k = 0; k < 3; ++k) {
@@ -121,7 +130,9 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
     status = fg__space_samples(velocity, data, pair, grid, &range, options->mask, plane);
   for (size_t i = 0; plane && i < row * range.count && status == FG_STATUS_OK; ++i)
     add_squares(sum, velocity, i);
-  if (status == FG_STATUS_OK)
+  /* parts of the plane are refused for this, too: they are zero everywhere */
+  if (status == FG_STATUS_OK && sum[0] >= sum[1] &&
+      !moves_in_plane(velocity, row * range.count))
     status =
         fg__field_check_plane(data->context, sum[0], sum[1],
                               (const char *[2]){fg__space_domain_axis_name(domain, 0),

@@ -247,7 +247,10 @@ static bool is_hiding(const fg__variable *v)
   return v->element < 2 && fg__attribute_find(v, "hiding_bits");
 }
 
-/* Missing numbers that the file does not declare; where it hides samples, it does. */
+static fg_status read_whole(const request *r);
+
+/* Missing numbers that the file does not declare; where it hides samples, it does. Of
+ * some rows that may hold such a number all rows decide. */
 static fg_status settle_missing(float *samples[3], const request *r, size_t count)
 {
   fg__missing_numbers given = r->data->missing;
@@ -259,7 +262,25 @@ static fg_status settle_missing(float *samples[3], const request *r, size_t coun
     raw.name[k] = r->variable[k]->name;
     raw.component[k] = samples[k];
   }
-  return fg__missing_settle(r->data->context, &raw, &given);
+  const size_t all = r->domain->size[r->domain->dimension - 1];
+  if (r->domain->cells || r->rows.count == all || given.none)
+    return fg__missing_settle(r->data->context, &raw, &given);
+  return fg__missing_is_suspect(&raw) ? read_whole(r) : FG_STATUS_OK;
+}
+
+/* Reads all rows, only to settle what is missing in them. */
+static fg_status read_whole(const request *r)
+{
+  request whole = *r;
+  float *samples[3] = {NULL, NULL, NULL};
+  whole.rows = (fg__row_range){0, r->domain->size[r->domain->dimension - 1]};
+  const box b = box_of(&whole);
+  fg_status status = read_box(samples, &whole, &b);
+  if (status == FG_STATUS_OK)
+    status = settle_missing(samples, &whole, b.size[0] * b.size[1] * b.size[2]);
+  for (int k = 0; k < 3; ++k)
+    free(samples[k]);
+  return status;
 }
 
 /* Reads the variables onto the wanted rows' points. With `any`, the first result stands

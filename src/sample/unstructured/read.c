@@ -5,6 +5,7 @@
 #include "map/map.h"
 #include "sample/cells/set.h"
 #include "sample/globe.h"
+#include "sample/layers.h"
 #include "sample/missing.h"
 #include "sample/points/points.h"
 #include "sample/unstructured/mesh.h"
@@ -406,19 +407,6 @@ static double missing_of_field(const fg_field *field)
   return (double)missing / (double)samples;
 }
 
-static void describe_field(fg_inventory_vector *vector, const fg_field *field)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  vector->dimension = vector->components = a->dimension;
-  for (int k = 0; k < a->dimension; ++k) {
-    vector->size[k] = a->size[k];
-    vector->bounds[2 * k] = a->axis[k][0];
-    vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
-    vector->periodic[k] = a->period[k] > 0.0;
-  }
-  vector->scale = a->scale;
-}
-
 /* What points become between which nothing is known. */
 static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
                             const fg__scatter_between *between, const fg_field *field)
@@ -467,7 +455,7 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
     fg__sphere_extent_of(&extent, sphere);
     fg__globe_describe(vector, &extent);
   } else if (status == FG_STATUS_OK) {
-    describe_field(vector, field);
+    fg__describe_field(vector, field);
   }
   vector->missing_share = (double)missing / (double)grid->samples;
   if (field && is_on_points(&r))
