@@ -170,11 +170,9 @@ int complain_of_memory(const char *what)
 
 void report_doubts(const char *file, const fg_field *field)
 {
-  char words[CLEAN_BYTES];
   for (const char *line = fg_field_contents(field)->doubts; line && *line;) {
     const size_t length = strcspn(line, "\n");
-    snprintf(words, sizeof words, "%.*s", (int)length, line);
-    complain("%s: %s", input_name(file), words);
+    complain("%s: %.*s", input_name(file), (int)length, line);
     line += length + (line[length] == '\n');
   }
   const size_t count = fg_field_infinite(field);

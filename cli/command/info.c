@@ -208,8 +208,11 @@ static void take_grid(fg_inventory_vector *vector, const fg_field *field)
 {
   const fg_field_arrays *a = fg_field_contents(field);
   size_t samples = 1, missing = 0;
+  const bool is_cut = a->dimension < vector->dimension;
   vector->dimension = a->dimension;
   for (int k = 0; k < a->dimension && k < 3; ++k) {
+    if (is_cut)
+      vector->axis_name[k] = a->axis_name[k];
     vector->size[k] = a->size[k];
     vector->bounds[2 * k] = a->axis[k][0];
     vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];

@@ -90,7 +90,7 @@ def _units(variable: Any) -> bytes:
 
 
 def eastward(coordinate: Any) -> Any:
-    """A coordinate with its numbers growing eastward and northward (degrees_west, degrees_south)."""
+    """A coordinate that counts to the east and north, though its units say west or south."""
     west = any(lib.fg__unit_factor(_units(coordinate), unit) < 0
                for unit in (b"degrees_east", b"degrees_north"))
     return coordinate.copy(data=-coordinate.values) if west else coordinate

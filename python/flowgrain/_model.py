@@ -111,7 +111,8 @@ def positions(dataset: xr.Dataset, dims: tuple[Hashable, ...]) -> list[np.ndarra
         if variable.ndim == 2 and set(variable.dims) == set(dims):
             role = role_of(dataset[name])
             if role in ("lon", "lat"):
-                found.setdefault(role, eastward(dataset[name]).transpose(*dims).values.astype(np.float64))
+                place = eastward(dataset[name]).transpose(*dims)
+                found.setdefault(role, place.values.astype(np.float64))
     return [found["lon"], found["lat"]] if len(found) == 2 else None
 
 

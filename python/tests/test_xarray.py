@@ -27,7 +27,7 @@ NAMES = [line.split(" = ") for line in (ROOT / "tests" / "vectors.txt").read_tex
 def test_components_are_found_by_name(names, wanted):
     from flowgrain._dataset import find_pair
 
-    u, x, y = vortices(5, 4)[1:]
+    x, y, u, _ = vortices(5, 4)
     found = xr.Dataset({name: (("lat", "lon"), u) for name in names.split()},
                        {"lon": x, "lat": y})
     if wanted in "-?":

@@ -92,6 +92,23 @@ fg__variable *fg__dataset_add_group(fg__dataset *dataset)
   return add(&dataset->groups, &dataset->group_count, &dataset->group_capacity, dataset);
 }
 
+fg_status fg__dataset_split(fg__dataset *dataset, int components)
+{
+  enum { MOST = 9 };
+  const size_t number = dataset->variable_count - 1;
+  dataset->variables[number].components = components;
+  dataset->variables[number].element = 1;
+  for (int k = 2; k <= components && k <= MOST; ++k) {
+    fg__variable *next = add(&dataset->variables, &dataset->variable_count,
+                             &dataset->variable_capacity, dataset);
+    if (!next)
+      return FG_STATUS_MEMORY;
+    *next = dataset->variables[number];
+    next->element = k;
+  }
+  return FG_STATUS_OK;
+}
+
 static fg__attribute *add_attribute(fg__variable *v, const char *name)
 {
   const size_t count = v->attributes;
@@ -146,7 +163,7 @@ static void clear(fg__variable *variables, size_t count)
 {
   for (size_t i = 0; i < count; ++i) {
     fg__variable *v = &variables[i];
-    /* both elements of a vector variable have the attributes of the first */
+    /* the elements of a vector variable have the attributes of the first */
     for (size_t n = 0; n < v->attributes && v->element < 2; ++n) {
       free(v->attribute[n].name);
       free(v->attribute[n].text);
@@ -171,6 +188,11 @@ void fg__dataset_close(fg__dataset *dataset)
   clear(dataset->variables, dataset->variable_count);
   clear(dataset->groups, dataset->group_count);
   free(dataset->dimensions);
+  free(dataset->space.cells.position);
+  free(dataset->space.cells.type);
+  free(dataset->space.cells.first);
+  free(dataset->space.cells.corner);
+  free(dataset->time);
   *dataset = (fg__dataset){0};
 }
 
@@ -246,6 +268,16 @@ int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
   return count;
 }
 
+bool fg__variable_has(const fg__variable *variable, const size_t *index)
+{
+  const fg__dataset *dataset = variable->owner;
+  const fg__decoder *decoder = dataset->file[variable->file].decoder;
+  size_t at[FG__RANK] = {0};
+  for (int k = 0; k < variable->rank && k < FG__RANK; ++k)
+    at[k] = index[k] + dataset->dimensions[variable->dimension[k]].chosen;
+  return !decoder->has || decoder->has(variable, at);
+}
+
 fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
                              const size_t *count, double *out)
 {
@@ -277,6 +309,9 @@ fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
                                    size_t count, char *out, size_t size)
 {
   const fg__dataset_file *file = &variable->owner->file[variable->file];
+  if (!file->decoder->fetch_texts)
+    return fg__fail(variable->owner->context, FG_STATUS_UNSUPPORTED,
+                    "%s: '%s' is of numbers", variable->path, variable->name);
   char *raw = fg__allocate(size, 1);
   fg_status status = raw ? file->decoder->fetch_texts(variable, first, count, out, size)
                          : fg__fail_memory(variable->owner->context, "a text", size);

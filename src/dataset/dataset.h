@@ -5,6 +5,7 @@
 #define FG__DATASET_H
 
 #include "base/context.h"
+#include "field/cell_types.h"
 #include "terms/coordinates.h"
 
 enum {
@@ -53,6 +54,9 @@ typedef enum fg__type {
   FG__TYPE_FLOAT64
 } fg__type;
 
+/* Where a variable's samples are: along dimensions, or in space. */
+typedef enum fg__location { FG__ON_GRID = 0, FG__AT_POINTS, FG__OF_CELLS } fg__location;
+
 typedef struct fg__variable {
   fg__dataset *owner;
   int file;               /* below FG__DATASET_FILES */
@@ -63,13 +67,19 @@ typedef struct fg__variable {
   fg__type type;
   int rank;                /* FG__RANK + 1 when it has more */
   int dimension[FG__RANK]; /* indices into the dataset's dimensions */
-  int element; /* 1, 2 (or 3): of a vector variable, whose dimension of components is not
-                  counted in `rank`, and which may also be there as a whole: 0 */
+  int element;    /* from 1: of a vector variable, whose dimension of components is not
+                     counted    in `rank`, and which may also be there as a whole: 0 */
+  int components; /* of a vector variable in space; of others 0 */
+  fg__location location;
+  bool is_marked;   /* the file calls it the vector */
+  bool no_velocity; /* the file says that it is something else, such as normals */
   fg__attribute *attribute;
   size_t attributes;
-  double fill;     /* of samples that were never written; NaN: there is none */
-  bool in_one_run; /* its samples lie in the file one after the other */
-  int place, id;   /* the decoder's own */
+  double fill;          /* of samples that were never written; NaN: there is none */
+  bool in_one_run;      /* its samples lie in the file one after the other */
+  bool fits_file;       /* the decoder has compared its size with the file's */
+  const char *unusable; /* why it cannot be read, the decoder's; NULL: it can */
+  int place, id;        /* the decoder's own */
   /* by interpret/, once a dataset is open */
   fg__role geographic; /* longitude (X), latitude (Y), or neither */
 } fg__variable;
@@ -81,15 +91,21 @@ typedef struct fg__decoder {
   fg_status (*fetch)(const fg__variable *variable, const size_t *start,
                      const size_t *count, double *out);
   /* Texts [first, first + count) of a variable of texts, or of rows of letters: each
-   * takes `size` bytes, ended by NUL. */
+   * takes `size` bytes, ended by NUL. NULL: the format has numbers alone. */
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
   void (*close)(void *state);
+  /* Whether the file has the samples at these indices; NULL: it has all. */
+  bool (*has)(const fg__variable *variable, const size_t *index);
   bool has_no_titles; /* but names and units alone */
   /* Of a text: what sample number n of a column stands in, "line", and its number;
    * NULL: samples are counted. */
   const char *records;
   size_t (*record)(const fg__variable *variable, size_t n);
+  /* Returns `status`, or fg__source_check of further files that it has opened; may be
+   * NULL.
+   */
+  fg_status (*check)(const void *state, fg_status status);
 } fg__decoder;
 
 typedef struct fg__dataset_file {
@@ -99,6 +115,28 @@ typedef struct fg__dataset_file {
   void *state;   /* the decoder's */
   bool was_read; /* numbers of it, since samples were chosen */
 } fg__dataset_file;
+
+/* Cells between points in space, numbered as VTK numbers their types and their corners
+ * (vtkCellType.h). */
+typedef struct fg__topology {
+  size_t points, cells, cell_capacity, corners, corner_capacity;
+  double *position;    /* [3 * points], x y z of a point together */
+  unsigned char *type; /* [cells] */
+  size_t *first;       /* [cells], each one's first corner */
+  int *corner; /* points; of a polyhedron the number of its points, these, and perhaps how
+                  many faces it has, and of each how many points and which */
+} fg__topology;
+
+/* Samples in space: on a grid along axes, or at points and of cells. */
+typedef struct fg__space {
+  bool is_there;
+  bool on_axes;       /* dimensions are those of z, y, x; else points, or cells */
+  size_t points[3];   /* along axes */
+  int axis[3];        /* along axes: the variables with the coordinates along x, y, z */
+  fg__topology cells; /* else */
+  struct fg__space_domain
+      *domain; /* by sample/: the plane or volume that the points fill */
+} fg__space;
 
 /* Numbers that a user takes for missing values: fg_read_options.missing. */
 typedef struct fg__missing_numbers {
@@ -121,13 +159,17 @@ struct fg__dataset {
   size_t variable_count, variable_capacity;
   fg__variable *groups; /* only their attributes; of each file its own first */
   size_t group_count, group_capacity;
+  fg__space space;
+  double *time; /* those that the opening chose one of; NULL: not known */
+  int times;    /* 0: there was no choice */
+  bool has_blocks;
   fg__missing_numbers missing;
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are borrowed until the next of
- * their kind is added, and NULL, with the message, where memory lacks. ARGUMENT (one file
- * too many), MEMORY. */
+ * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are
+ * borrowed until the next of their kind is added, and NULL, with the message, where
+ * memory lacks. ARGUMENT (one file too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
                             size_t size, const fg__decoder *decoder);
 fg__dimension *fg__dataset_add_dimension(fg__dataset *dataset, const char *name,
@@ -140,7 +182,24 @@ fg_status fg__variable_add_text(fg__variable *variable, const char *name,
 fg_status fg__variable_add_numbers(fg__variable *variable, const char *name,
                                    const double *number, size_t count, bool is_floating);
 
+/* Makes `components` elements of the variable that was added last, or as many as a tensor
+ * has. MEMORY. */
+fg_status fg__dataset_split(fg__dataset *dataset, int components);
+
 void fg__dataset_close(fg__dataset *dataset);
+
+/* topology.c. The points that a piece of a file has, from `first` on. */
+typedef struct fg__piece_points {
+  size_t first, count;
+} fg__piece_points;
+
+/* Adds a cell by the numbers of its points in their piece, and those of the faces of a
+ * polyhedron: how many, and of each how many points and which. FILE_FORMAT (no such
+ * point, faces that are not within the numbers), UNSUPPORTED (more than INT_MAX corners),
+ * MEMORY. */
+fg_status fg__topology_add(fg__dataset *dataset, int type, const double *node,
+                           size_t nodes, const double *face, size_t numbers,
+                           const fg__piece_points *points);
 
 /* The variable of that name (whole, or its last part), or NULL. */
 const fg__variable *fg__dataset_find(const fg__dataset *dataset, const char *name);
@@ -175,6 +234,9 @@ fg_status fg__variable_fetch(const fg__variable *variable, const size_t *start,
 fg_status fg__variable_fetch_one(const fg__variable *variable, const size_t *index,
                                  double *out);
 
+/* Whether the file has the samples there: some times lack levels that others have. */
+bool fg__variable_has(const fg__variable *variable, const size_t *index);
+
 /* Texts along the first dimension of a variable of texts, or of letters with two; indices
  * are the file's. */
 fg_status fg__variable_fetch_texts(const fg__variable *variable, size_t first,
@@ -201,6 +263,10 @@ typedef struct fg__packing {
 typedef struct fg__missing_counts {
   size_t fill, range, not_a_number; /* samples that are missing, by reason */
 } fg__missing_counts;
+
+/* 57.3 of longitudes and latitudes in radians, -1 of degrees west or south, else 1:
+ * numbers that are unpacked are in degrees east and north. */
+double fg__degrees_per_unit(const fg__variable *v);
 
 fg__packing fg__packing_of(const fg__variable *variable);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/angle.h"
 #include "dataset/dataset.h"
 #include "terms/units.h"
 
@@ -87,14 +88,29 @@ bool fg__is_given_missing(const fg__missing_numbers *given, double value)
   return false;
 }
 
-/* Degrees of which those in the west or south are positive are read as if packed. */
-static bool counts_west_or_south(const fg__variable *v)
+double fg__degrees_per_unit(const fg__variable *v)
 {
-  char text[FG__TEXT_BYTES];
-  fg__unit unit = {.factor = 1.0};
-  if (fg__attribute_text(v, "units", text, sizeof text))
-    fg__unit_read(&unit, text);
-  return unit.factor < 0.0;
+  const fg__attribute *units = fg__attribute_find(v, "units");
+  fg__unit unit;
+  if (!units || !units->text)
+    return 1.0;
+  fg__unit_read(&unit, units->text);
+  if (unit.quantity == FG__QUANTITY_RADIANS)
+    return v->geographic != FG__NO_ROLE ? 1.0 / FG__RADIANS : 1.0;
+  return unit.factor < 0.0 ? -1.0 : 1.0;
+}
+
+/* Longitudes and latitudes in radians, or that count to the west or south, are read as if
+ * they were packed. */
+static void turn_degrees(fg__packing *p, double degrees)
+{
+  const double range[2] = {degrees * p->least, degrees * p->largest};
+  p->scale *= degrees;
+  p->offset *= degrees;
+  if (p->range_unpacked) {
+    p->least = degrees < 0.0 ? range[1] : range[0];
+    p->largest = degrees < 0.0 ? range[0] : range[1];
+  }
 }
 
 fg__packing fg__packing_of(const fg__variable *variable)
@@ -105,13 +121,7 @@ fg__packing fg__packing_of(const fg__variable *variable)
   find_fills(&p, variable);
   find_range(&p, variable, scaled + moved > 0);
   find_unsigned(&p, variable);
-  if (counts_west_or_south(variable)) {
-    const double least = p.least;
-    p.scale = -p.scale;
-    p.offset = -p.offset;
-    p.least = p.range_unpacked ? -p.largest : least;
-    p.largest = p.range_unpacked ? -least : p.largest;
-  }
+  turn_degrees(&p, fg__degrees_per_unit(variable));
   return p;
 }
 

@@ -37,6 +37,19 @@ bool fg__is_vtk_xml(const unsigned char *bytes, size_t size)
   return false;
 }
 
+bool fg__is_vtk_series(const unsigned char *bytes, size_t size)
+{
+  static const char mark[] = "\"file-series-version\"";
+  size_t at = 0;
+  while (at < size && bytes[at] && strchr(" \t\r\n", bytes[at]))
+    ++at;
+  if (at == size || bytes[at] != '{')
+    return false;
+  while (at + sizeof mark - 1 <= size && memcmp(bytes + at, mark, sizeof mark - 1) != 0)
+    ++at;
+  return at + sizeof mark - 1 <= size;
+}
+
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size)
 {
   static const char mark[] = "# vtk DataFile Version";

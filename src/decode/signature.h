@@ -18,6 +18,8 @@ typedef enum fg__nc_kind {
 fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size);
 
 bool fg__is_vtk_xml(const unsigned char *bytes, size_t size);
+/* A list of VTK files over time in JSON, as ParaView writes it. */
+bool fg__is_vtk_series(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size);
 
 /* A heading, of telecommunication or of an archive and in any code, may stand before the

@@ -51,6 +51,11 @@ fg_status fg__field_create_slab(fg_field **out, fg_context *context,
  * has all its corners, or nothing moves. ARGUMENT. */
 fg_status fg__field_check_counts(fg_context *context, const fg__slab_counts *counts);
 
+/* Fails for a plane whose vectors are all normal to it, by sums of the squares of their
+ * normal components and of all. `axis`: names of the plane's axes. ARGUMENT. */
+fg_status fg__field_check_plane(fg_context *context, double normal, double all,
+                                const char *const axis[2]);
+
 /* A window of a field, whose axes and words it borrows: it must go first. `velocity`,
  * [held[0] * held[1] * held[2]] floats a component, x fastest, is taken over, even after
  * a failure. MEMORY. */

@@ -366,6 +366,21 @@ static fg_status begin(cut *c, const fg_plane *plane)
   return check_units(c);
 }
 
+/* Of single precision and its sums: a smaller share of squares is rounding. */
+static const double NO_SHARE = 1e-12;
+
+fg_status fg__field_check_plane(fg_context *context, double normal, double all,
+                                const char *const axis[2])
+{
+  if (!(all > 0.0) || normal < (1.0 - NO_SHARE) * all)
+    return FG_STATUS_OK;
+  return fg__fail(
+      context, FG_STATUS_ARGUMENT,
+      "field: all vectors are normal to the plane of %s and %s, so that there "
+      "is nothing of them in it",
+      axis[0], axis[1]);
+}
+
 fg_status fg_field_slice(fg_field **out, fg_context *context, const fg_field *volume,
                          const fg_plane *plane)
 {
@@ -379,8 +394,10 @@ fg_status fg_field_slice(fg_field **out, fg_context *context, const fg_field *vo
     status = c.along_axes ? cut_along_axes(&c) : cut_across(&c);
   if (status == FG_STATUS_OK) {
     name_all(&c);
-    status = fg__field_take(out, context, &c.arrays, c.velocity);
+    status = fg__field_check_plane(context, c.normal_sum, c.sum, c.arrays.axis_name);
   }
+  if (status == FG_STATUS_OK)
+    status = fg__field_take(out, context, &c.arrays, c.velocity);
   if (status == FG_STATUS_OK)
     (*out)->normal_share = c.sum > 0.0 ? c.normal_sum / c.sum : 0.0;
   for (int k = 0; k < 2; ++k) {

@@ -125,6 +125,17 @@ static void between_samples_it_is_linear(void **state)
   fg_field_destroy(field);
 }
 
+static void a_plane_without_vectors_in_it_is_refused(void **state)
+{
+  volume *v = *state;
+  const fg_plane across = {{0.0, 0.0, 1.0}, {0.5, 11.0, 4.5}};
+  for (int n = 0; n < COUNT; ++n) {
+    v->velocity[0][n] = v->velocity[1][n] = 0.0f;
+    v->velocity[2][n] = 1.0f + (float)n;
+  }
+  cut_refused(v, &across, "normal to the plane of east and y");
+}
+
 /* Whatever the plane: its points are where its coordinates say, and have the components
  * of the velocity there. */
 static void a_tilted_plane_has_its_components(void **state)
@@ -270,6 +281,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       TEST(a_plane_of_samples_is_itself),
       TEST(between_samples_it_is_linear),
+      TEST(a_plane_without_vectors_in_it_is_refused),
       TEST(a_tilted_plane_has_its_components),
       TEST(a_tilted_plane_reaches_the_box),
       TEST(directions_are_natural),

@@ -192,3 +192,20 @@ void fg__call_geographic(fg__grid_axis *axis, int k)
   snprintf(axis->name, sizeof axis->name, "%s", k == 0 ? "longitude" : "latitude");
   snprintf(axis->units, sizeof axis->units, "%s", k == 0 ? "°E" : "°N");
 }
+
+void fg__check_axes_in_degrees(fg__grid *grid)
+{
+  const double *lon = grid->axis[0].coordinate, *lat = grid->axis[1].coordinate;
+  if (!lon || !lat || grid->axis[1].quantity != FG__QUANTITY_DEGREES_NORTH)
+    return;
+  const double x[2] = {lon[0], lon[grid->axis[0].size - 1]},
+               y[2] = {lat[0], lat[grid->axis[1].size - 1]};
+  if (fg__fill_radians(x, y))
+    fg__set_unusable(
+        grid->unusable,
+        "longitudes %g to %g and latitudes %g to %g are radians, not degrees", x[0], x[1],
+        y[0], y[1]);
+  if (fmax(-y[0], y[1]) > 91.0)
+    fg__set_unusable(grid->unusable, "latitudes %g to %g lie beyond the poles", y[0],
+                     y[1]);
+}

@@ -38,6 +38,25 @@ static fg__names list_pairs(const candidates *all, const int *dimension)
   return names;
 }
 
+/* The only variable that GRIB calls so, as "10u" is called u10 too; NULL: none. */
+static const fg__variable *find_alias(const fg__dataset *data, const char *name, int file)
+{
+  static const char *const words[] = {"GRIB_shortName", "GRIB_cfVarName"};
+  const fg__variable *found = NULL;
+  char text[FG__TEXT_BYTES];
+  for (size_t i = 0; i < data->variable_count; ++i)
+    for (int k = 0; k < 2; ++k) {
+      const fg__variable *v = &data->variables[i];
+      if (v->file != file || !fg__attribute_text(v, words[k], text, sizeof text) ||
+          strcmp(text, name) != 0)
+        continue;
+      if (found && found != v)
+        return NULL;
+      found = v;
+    }
+  return found;
+}
+
 /* Whether a text is a column's name, in any letters, perhaps with its units behind it, as
  * in "Wind Speed (kt)". */
 static bool is_column(const char *name, const char *text)
@@ -78,6 +97,7 @@ static const fg__variable *find_named(const fg__dataset *data, const char *name,
   for (size_t i = 0; i < data->variable_count && !found; ++i)
     if (is_column(data->variables[i].plain_name, name))
       found = &data->variables[i];
+  found = found ? found : find_alias(data, name, preferred);
   return found ? found : find_numbered(data, name);
 }
 
@@ -93,15 +113,43 @@ static const fg__variable *find_direction(const fg__dataset *data)
   return NULL;
 }
 
+/* Lists variables as "u, lat, lon", possible components first, but no axes in space,
+ * which are none of the file's. */
+static fg__names list_variables(const fg__dataset *data)
+{
+  fg__names names = {0};
+  for (int turn = 0; turn < 2; ++turn)
+    for (size_t i = 0; i < data->variable_count; ++i) {
+      const fg__variable *v = &data->variables[i];
+      const bool is_field = v->location || (v->rank >= 2 && v->type != FG__TYPE_LETTERS);
+      if (is_field == (turn == 0) && v->element < 2 &&
+          (v->location || !data->space.is_there))
+        fg__names_add(&names, ", ", "%s", v->name);
+    }
+  return names;
+}
+
+fg_status fg__fail_unknown(const fg__dataset *data, const char *name)
+{
+  const fg__names names = list_variables(data);
+  fg_status status =
+      fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
+               data->file[data->component_files - 1].path, name);
+  if (names.count > 0)
+    fg__hint(data->context, "its variables: %s", names.text);
+  return status;
+}
+
 static fg_status fail_unknown_name(const fg__dataset *data, const candidates *all,
                                    const char *name)
 {
   const fg__names list = list_pairs(all, NULL);
-  fg_status status =
+  if (list.count == 0)
+    return fg__fail_unknown(data, name);
+  const fg_status status =
       fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: has no variable '%s'",
                data->file[data->component_files - 1].path, name);
-  if (list.count > 0)
-    fg__hint(data->context, "pairs in it: %s", list.text);
+  fg__hint(data->context, "pairs in it: %s", list.text);
   return status;
 }
 
@@ -109,12 +157,13 @@ static fg_status fail_names(const fg__dataset *data, const candidates *all,
                             const char *vars)
 {
   const fg__names list = list_pairs(all, NULL);
-  fg__fail(data->context, FG_STATUS_ARGUMENT,
-           strchr(vars, ',')
-               ? "%s: '%s' is not two or three names with commas between, nor four or six "
-                 "with the coordinates first"
-               : "%s: '%s' is one variable, and a velocity has two or three components",
-           data->file[0].path, vars);
+  fg__fail(
+      data->context, FG_STATUS_ARGUMENT,
+      strchr(vars, ',')
+          ? "%s: '%s' is not two or three names with commas between, nor four or six "
+            "with the coordinates first"
+          : "%s: '%s' is one variable, and a velocity has two or three components",
+      data->file[0].path, vars);
   if (list.count > 0)
     fg__hint(data->context, "pairs in it: %s", list.text);
   else
@@ -174,11 +223,25 @@ static const fg__variable *find_vector(const fg__dataset *data, const char *name
   return v && v->element == 1 ? v : NULL;
 }
 
+static fg_status choose_elements(fg__pair *out, const fg__dataset *data,
+                                 const fg__variable *vector)
+{
+  if (vector->components > 3)
+    return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                    "%s: '%s' has %d components, not 2 or 3", data->file[0].path,
+                    vector->name, vector->components);
+  *out = fg__pair_of_elements(vector);
+  out->found_by = "request";
+  return FG_STATUS_OK;
+}
+
 static fg_status choose_named(fg__pair *out, const fg__dataset *data,
                               const candidates *all, const char *vars)
 {
   char name[MOST_NAMED][FG__NAME_BYTES];
   const fg__variable *vector = find_vector(data, vars);
+  if (vector && vector->location)
+    return choose_elements(out, data, vector);
   if (vector) {
     *out = (fg__pair){.component = {vector, vector + 1, fg__third_element(vector)},
                       .found_by = "request"};
@@ -186,7 +249,7 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
   }
   const int names = split_names(name, vars), places = names > 3 ? names / 2 : 0;
   const int count = names - places;
-  if (names == 0)
+  if (names == 0 || (places > 0 && data->space.is_there))
     return fail_names(data, all, vars);
   *out = (fg__pair){.found_by = "request", .volume = count == 3};
   for (int k = 0; k < names; ++k) {
@@ -194,6 +257,11 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
         find_named(data, name[k], k > places ? data->component_files - 1 : 0);
     if (!v)
       return fail_unknown_name(data, all, name[k]);
+    if (v->location && v->element)
+      return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                      "%s: '%s' has %d components; one of several variables must have "
+                      "one",
+                      data->file[0].path, name[k], v->components);
     if (k < places)
       out->position[k] = v;
     else
@@ -203,7 +271,8 @@ static fg_status choose_named(fg__pair *out, const fg__dataset *data,
     if (out->component[k] == out->component[(k + 1) % count])
       return fg__fail(data->context, FG_STATUS_ARGUMENT, "%s: %s components are '%s'",
                       data->file[0].path, count == 2 ? "both" : "two", name[places + k]);
-  const fg_status status = count == 2 ? fg__settle_polar(out, data) : FG_STATUS_OK;
+  const fg_status status =
+      count == 2 && !data->space.is_there ? fg__settle_polar(out, data) : FG_STATUS_OK;
   return status == FG_STATUS_OK ? check_order(data, all, out) : status;
 }
 
@@ -251,20 +320,6 @@ static fg_status check_places(const fg__dataset *data, const fg__pair *pair,
                   pair->component[0]->name);
 }
 
-/* Lists variables as "u, lat, lon", possible components first. */
-static fg__names list_variables(const fg__dataset *data)
-{
-  fg__names names = {0};
-  for (int turn = 0; turn < 2; ++turn)
-    for (size_t i = 0; i < data->variable_count; ++i) {
-      const fg__variable *v = &data->variables[i];
-      const bool is_field = v->rank >= 2 && v->type != FG__TYPE_LETTERS;
-      if (is_field == (turn == 0) && v->element < 2)
-        fg__names_add(&names, ", ", "%s", v->name);
-    }
-  return names;
-}
-
 static bool all_are_columns(const fg__dataset *data)
 {
   for (size_t i = 0; i < data->variable_count; ++i)
@@ -277,11 +332,11 @@ static bool all_are_columns(const fg__dataset *data)
 static fg_status fail_no_vectors(const fg__dataset *data)
 {
   const fg__names names = list_variables(data);
+  const size_t count = data->space.is_there ? (size_t)names.count : data->variable_count;
   fg_status status =
       fg__fail(data->context, FG_STATUS_UNSUPPORTED,
                "%s: no vectors found among its %zu variable%s%s%s", data->file[0].path,
-               data->variable_count, data->variable_count == 1 ? "" : "s",
-               names.count > 0 ? ": " : "", names.text);
+               count, count == 1 ? "" : "s", names.count > 0 ? ": " : "", names.text);
   const fg__variable *direction = find_direction(data);
   if (direction)
     fg__hint(data->context, "name the speed with its direction: --vars SPEED,%s",
@@ -289,7 +344,7 @@ static fg_status fail_no_vectors(const fg__dataset *data)
   else if (all_are_columns(data))
     fg__hint(data->context, "name coordinates and components, or their numbers from 1: "
                             "--vars X,Y,U,V or --vars 1,2,3,4");
-  else if (data->component_files == 1)
+  else if (data->component_files == 1 && !data->space.is_there)
     fg__hint(data->context, "name the components with --vars U,V; when the other one is "
                             "in a second file, add --vars-from FILE");
   else
@@ -305,7 +360,12 @@ static fg_status fail_ambiguous(const fg__dataset *data, const candidates *all,
       fg__fail(data->context, FG_STATUS_ARGUMENT,
                "%s: holds %d vectors, and it is not clear which is meant: %s",
                data->file[0].path, count, list.text);
-  fg__hint(data->context, "choose one with --vars U,V");
+  char one[3 * FG__NAME_BYTES];
+  int first = 0;
+  while (usable[first] == 0)
+    ++first;
+  write_names(one, sizeof one, &all->pair[first], usable[first] == 3);
+  fg__hint(data->context, "choose one, for example with --vars %s", one);
   return status;
 }
 
@@ -360,7 +420,8 @@ fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *d
       status = check_places(data, pair, grid);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(data, pair, grid);
-    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3)
+    else if (status == FG_STATUS_OK && pair->volume && grid->dimension != 3 &&
+             !grid->domain)
       status = fail_flat(data, pair);
   } else if (status == FG_STATUS_OK) {
     status = choose_best(pair, grid, data, &all, options);

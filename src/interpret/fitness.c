@@ -25,7 +25,9 @@ static void write_shape(char *out, size_t size, const fg__dataset *data,
 
 void fg__check_variable(fg__grid *grid, const fg__variable *v)
 {
-  if (v->type == FG__TYPE_LETTERS || v->type == FG__TYPE_TEXTS)
+  if (v->unusable)
+    fg__set_unusable(grid->unusable, "%s", v->unusable);
+  else if (v->type == FG__TYPE_LETTERS || v->type == FG__TYPE_TEXTS)
     fg__set_unusable(grid->unusable, "'%s' holds text, not numbers", v->name);
   else if (!fg__is_number(v))
     fg__set_unusable(grid->unusable,
@@ -40,8 +42,8 @@ void fg__check_variable(fg__grid *grid, const fg__variable *v)
 
 static bool fits_file(const fg__dataset *data, const fg__variable *v, size_t samples)
 {
-  return samples / LARGEST_COMPRESSION * fg__type_bytes(v->type) <=
-         data->file[v->file].size;
+  return v->fits_file || samples / LARGEST_COMPRESSION * fg__type_bytes(v->type) <=
+                             data->file[v->file].size;
 }
 
 /* Whether numbers differ by no more than rounding; what is none in both is the same.
@@ -170,6 +172,51 @@ void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variabl
           u->plain_name, data->dimensions[u->dimension[k]].name, v->plain_name,
           data->dimensions[v->dimension[k]].name);
     }
+}
+
+/* Whether the file has both components at a time and level. */
+static bool has_samples(const fg__pair *pair, const fg__grid *grid, int time, int level)
+{
+  bool has = true;
+  for (int k = 0; k < 2; ++k) {
+    size_t index[FG__RANK] = {0};
+    if (grid->time >= 0)
+      index[grid->time] = (size_t)time;
+    if (grid->level >= 0)
+      index[grid->level] = (size_t)level;
+    has = has && fg__variable_has(pair->component[k], index);
+  }
+  return has;
+}
+
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options)
+{
+  fg__vector_words words;
+  if (has_samples(pair, grid, options->time, options->level))
+    return FG_STATUS_OK;
+  const fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
+  return status != FG_STATUS_OK
+             ? status
+             : fg__fail(data->context, FG_STATUS_ARGUMENT,
+                        "%s: has no '%.200s' and '%.200s' at time %d (%s) and level %d "
+                        "(%s)",
+                        data->file[0].path, pair->component[0]->name,
+                        pair->component[1]->name, options->time, words.time,
+                        options->level, words.level);
+}
+
+fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid)
+{
+  fg_read_options first = {0};
+  for (int time = 0; time < (int)grid->times; ++time)
+    for (int level = 0; level < (int)grid->levels; ++level)
+      if (has_samples(pair, grid, time, level)) {
+        first.time = time;
+        first.level = level;
+        return first;
+      }
+  return first;
 }
 
 void fg__refuse_apart(fg__grid *grid, const fg__pair *pair)

@@ -1,7 +1,7 @@
 /* The grid of a pair: dimensions, coordinates, units and scale. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
-#include "interpret/interpret.h"
+#include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/frame.h"
 
@@ -390,6 +390,8 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
     fg__set_unusable(grid->unusable,
                      "scale geo needs axes in degrees; '%.60s' is in %.40s", x->name,
                      x->units);
+  if (grid->scale == FG_SCALE_GEO && is_usable(grid))
+    fg__check_axes_in_degrees(grid);
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
                      x->name, x->units, y->name, y->units);
@@ -474,6 +476,8 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
 fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                         const fg_read_options *options)
 {
+  if (data->space.is_there)
+    return fg__space_find(grid, data, pair, options);
   const fg_status status = find_grid(grid, data, pair, options);
   if (status == FG_STATUS_OK && is_usable(grid))
     fg__check_polar(grid, pair, options);

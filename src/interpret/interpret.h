@@ -36,7 +36,9 @@ typedef struct fg__pair {
   const fg__variable *component[3]; /* the third NULL when there is none */
   bool volume;                      /* the options name all three */
   const fg__variable *position[3];  /* that the options name; or NULL */
-  fg__polar polar;                  /* they are a speed and a direction */
+  int across; /* of two components of a plane upright in space: 1 + the axis of the one
+                 that is missing; 0: they are the first two */
+  fg__polar polar; /* they are a speed and a direction */
   const char *found_by;
   int rank;         /* the smallest is the best */
   bool is_velocity; /* units of a speed, unlike a stress or a flux */
@@ -52,6 +54,11 @@ fg_status fg__check_choices(const fg__dataset *data, const fg__pair *pair);
 
 /* Lists the pairs, best rank first, then in the order of the file. *out is for free(). */
 fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data);
+
+/* space/vectors.c. The pair of the elements of a vector variable in space, from its
+ * first; and whether a variable is that and may be the vector that is meant. */
+fg__pair fg__pair_of_elements(const fg__variable *first);
+bool fg__pair_of_vector(fg__pair *out, const fg__variable *v);
 
 /* The name of a variable, or what its place calls it where it has a number only. */
 const char *fg__called(const fg__variable *v);
@@ -125,8 +132,10 @@ typedef struct fg__staggered {
 
 typedef struct fg__grid {
   fg__curvilinear *mesh; /* of a curvilinear grid; NULL: points lie on axes, or */
-  fg__unstructured *unstructured; /* unstructured/; NULL: no such mesh */
-  bool off_axes; /* points do not lie on axes: a mesh, faces, or unusable */
+  fg__unstructured *unstructured;        /* unstructured/; NULL: no such mesh */
+  const struct fg__space_domain *domain; /* space/: points in space; NULL: they are not */
+  int component[3]; /* in space: which of the pair's is along each axis */
+  bool off_axes;    /* points do not lie on axes: a mesh, faces, or unusable */
   fg__staggered faces;
   int dimension;         /* 2: a plane at one level; 3 */
   fg__grid_axis axis[3]; /* x, y; the levels as z in 3D */
@@ -155,6 +164,14 @@ void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__varia
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
                       const fg__variable *v);
 
+/* Refuses a time and level that lack a component: not every time need have every level.
+ * ARGUMENT. */
+fg_status fg__check_samples(const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid, const fg_read_options *options);
+
+/* The first time and level that have both. */
+fg_read_options fg__first_samples(const fg__pair *pair, const fg__grid *grid);
+
 /* Makes a pair unusable whose components lie more than half a cell apart. */
 void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 
@@ -181,6 +198,9 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);
+/* axes.c. Makes a pair unusable whose longitudes and latitudes are radians, or no
+ * latitudes, by their numbers. */
+void fg__check_axes_in_degrees(fg__grid *grid);
 
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);
@@ -252,6 +272,9 @@ void fg__set_index_axes(fg__grid *grid, const fg__dataset *data, const fg__varia
  * UNSUPPORTED, FILE_ACCESS, MEMORY. */
 fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *data,
                             const fg_read_options *options);
+
+/* Fails for a name that no variable has; the hint lists those there are. ARGUMENT. */
+fg_status fg__fail_unknown(const fg__dataset *data, const char *name);
 
 /* Reads a component at one time and level into out, x fastest, both axes ascending; NaN
  * where a value is missing. Adds to `missing`. */

@@ -1,6 +1,7 @@
 /* The pairs of variables that are components of one vector: terms/vectors.h of those that
  * may be, and vector variables. */
 #include "base/memory.h"
+#include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/coordinates.h"
 #include "terms/vectors.h"
@@ -27,11 +28,19 @@ const char *fg__called(const fg__variable *v)
 
 fg__term fg__term_of(const fg__variable *v)
 {
+  double relative;
+  const bool flagged =
+      fg__attribute_numbers(v, "GRIB_uvRelativeToGrid", &relative, 1) == 1;
   return (fg__term){.name = fg__called(v),
                     .standard_name = text_of(v, "standard_name"),
                     .long_name = text_of(v, "long_name"),
                     .units = text_of(v, "units"),
-                    .file = v->file};
+                    .group = (int)v->location,
+
+                    .file = v->file,
+                    .frame = !flagged         ? 0
+                             : relative > 0.0 ? -1
+                                              : 1};
 }
 
 const fg__variable *fg__third_element(const fg__variable *v)
@@ -47,10 +56,31 @@ typedef struct candidates {
   size_t count;
 } candidates;
 
-static bool may_be_component(const fg__dataset *data, const fg__variable *v)
+/* What is known of the last dimension without a name: all of a table's columns lie along
+ * one. */
+typedef struct known_line {
+  int dimension;
+  bool has_places;
+} known_line;
+
+static bool lies_at_places(const fg__dataset *data, const fg__variable *v,
+                           known_line *known)
 {
+  const int dimension = v->dimension[0];
+  if (!data->dimensions[dimension].is_nameless)
+    return fg__unstructured_line(data, v);
+  if (dimension != known->dimension)
+    *known = (known_line){dimension, fg__unstructured_line(data, v)};
+  return known->has_places;
+}
+
+static bool may_be_component(const fg__dataset *data, const fg__variable *v,
+                             known_line *known)
+{
+  if (data->space.is_there)
+    return fg__may_be_in_space(v);
   return v->file < data->component_files && fg__is_array(v) && !v->element &&
-         (v->rank >= 2 || fg__unstructured_line(data, v));
+         (v->rank >= 2 || lies_at_places(data, v, known));
 }
 
 static bool have_same_places(const fg__dataset *data, const fg__variable *a,
@@ -75,11 +105,12 @@ static bool list_candidates(candidates *out, const fg__dataset *data)
 {
   out->term = fg__allocate(data->variable_count, sizeof *out->term);
   out->variable = fg__allocate(data->variable_count, sizeof *out->variable);
+  known_line known = {.dimension = -1};
   if (!out->term || !out->variable)
     return false;
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
-    if (!may_be_component(data, v))
+    if (!may_be_component(data, v, &known))
       continue;
     fg__term *term = &out->term[out->count];
     *term = fg__term_of(v);
@@ -138,10 +169,47 @@ static bool add_found(pair_list *pairs, const fg__dataset *data, const candidate
     for (int k = 0; k < 3; ++k)
       if (v->component[k] >= 0)
         pair.component[components++] = all->variable[v->component[k]];
-    memory = (v->is_upright && !is_plane_across(data, v->component[0] < 0 ? 0 : 1)) ||
-             append(pairs, &pair);
+      else if (v->is_upright)
+        pair.across = 1 + k;
+    const bool lies_elsewhere =
+        data->space.is_there ? v->polar.sense != 0
+                             : v->is_upright && !is_plane_across(data, pair.across - 1);
+    memory = lies_elsewhere || append(pairs, &pair);
   }
   free(found);
+  return memory;
+}
+
+static bool is_paired(const pair_list *pairs, const fg__variable *v)
+{
+  for (size_t i = 0; i < pairs->count; ++i)
+    for (int k = 0; k < 3; ++k)
+      if (pairs->entry[i].component[k] == v)
+        return true;
+  return false;
+}
+
+/* Variables that no vector has by their names, by what their long names say. */
+static bool add_titled(pair_list *pairs, const fg__dataset *data, candidates *all,
+                       bool apart)
+{
+  const size_t known = pairs->count;
+  size_t kept = 0;
+  for (size_t i = 0; i < all->count; ++i) {
+    const char *title = all->term[i].long_name;
+    if (!title || !title[0] || is_paired(pairs, all->variable[i]))
+      continue;
+    all->term[kept] = all->term[i];
+    all->term[kept].name = title;
+    all->term[kept].standard_name = NULL;
+    all->variable[kept++] = all->variable[i];
+  }
+  all->count = kept;
+  const bool memory = add_found(pairs, data, all, apart);
+  for (size_t i = known; i < pairs->count; ++i) {
+    pairs->entry[i].found_by = "long_name";
+    pairs->entry[i].rank += FG__BY_LONG_NAMES;
+  }
   return memory;
 }
 
@@ -160,7 +228,10 @@ static bool add_vectors(pair_list *pairs, const fg__dataset *data, bool all)
   for (size_t i = 0; i + 1 < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     const char *units = text_of(v, "units");
-    if (v->element != 1 || v->file >= data->component_files ||
+    fg__pair of_space;
+    if (v->location && fg__pair_of_vector(&of_space, v) && !append(pairs, &of_space))
+      return false;
+    if (v->location || v->element != 1 || v->file >= data->component_files ||
         (!all && is_also_whole(data, i)))
       continue;
     fg__unit unit = {.quantity = FG__QUANTITY_SPEED};
@@ -195,6 +266,7 @@ fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data)
   bool memory = list_candidates(&all, data) && add_found(&pairs, data, &all, two_files);
   if (pairs.count == 0 && two_files) /* the second may have only positions or a mask */
     memory = memory && add_found(&pairs, data, &all, false);
+  memory = memory && add_titled(&pairs, data, &all, two_files);
   memory = memory && add_vectors(&pairs, data, pairs.count == 0);
   free(all.term);
   free(all.variable);
@@ -202,6 +274,8 @@ fg_status fg__pairs_find(fg__pair **out, size_t *count, const fg__dataset *data)
     free(pairs.entry);
     return fg__fail_memory(data->context, "pairs of variables", 0);
   }
+  if (data->space.is_there)
+    fg__drop_repeated(pairs.entry, &pairs.count);
   if (pairs.count > 0)
     qsort(pairs.entry, pairs.count, sizeof *pairs.entry, compare_pairs);
   *out = pairs.entry;

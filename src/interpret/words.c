@@ -185,6 +185,24 @@ static bool are_none(const char *units)
   return false;
 }
 
+/* What a number stands for, where it is a flag (CF conventions, section 3.5). */
+static bool write_flag(const fg__variable *coordinate, double value, char *out,
+                       size_t size)
+{
+  enum { MOST_FLAGS = 16 };
+  double flag[MOST_FLAGS];
+  char meanings[FG__TEXT_BYTES], *rest = NULL;
+  const int count = fg__attribute_numbers(coordinate, "flag_values", flag, MOST_FLAGS);
+  fg__attribute_text(coordinate, "flag_meanings", meanings, sizeof meanings);
+  char *word = strtok_r(meanings, " ", &rest);
+  for (int n = 0; n < count && word; ++n, word = strtok_r(NULL, " ", &rest))
+    if (flag[n] == value) {
+      snprintf(out, size, "%s", word);
+      return true;
+    }
+  return false;
+}
+
 /* Writes a coordinate's value as text, pressures of the air in hPa. */
 static void write_words(const fg__variable *coordinate, double value, char *out,
                         size_t size)
@@ -197,7 +215,8 @@ static void write_words(const fg__variable *coordinate, double value, char *out,
   const fg__quantity quantity = fg__units_read(units, label, sizeof label);
   if (!fg__is_number(coordinate) && fg__date_of_seconds(value, out, size))
     return; /* a column of dates */
-  if ((quantity == FG__QUANTITY_DATE &&
+  if (write_flag(coordinate, value, out, size) ||
+      (quantity == FG__QUANTITY_DATE &&
        fg__date_of_number(value, units, calendar, out, size)) ||
       fg__duration(value, units, out, size))
     return;
@@ -221,6 +240,46 @@ static void write_words(const fg__variable *coordinate, double value, char *out,
     snprintf(out, size, "%s %s %s", coordinate->plain_name, number, units);
 }
 
+/* When the forecasts began whose times these are; NULL: the file does not say. */
+static const fg__variable *starts_of(const fg__variable *times)
+{
+  char name[FG__TEXT_BYTES];
+  const fg__dataset *data = times->owner;
+  for (size_t i = 0; i < data->variable_count && times->rank == 1; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (v != times && v->rank == 1 && v->dimension[0] == times->dimension[0] &&
+        fg__attribute_text(v, "standard_name", name, sizeof name) &&
+        strcmp(name, "forecast_reference_time") == 0)
+      return v;
+  }
+  return NULL;
+}
+
+/* Adds to the words of a time when its forecast began. */
+static void add_start(const fg__variable *starts, size_t index, char *words, size_t size)
+{
+  double value;
+  const size_t used = strlen(words);
+  if (used + 7 > size || fg__variable_fetch_one(starts, &index, &value) != FG_STATUS_OK)
+    return;
+  snprintf(words + used, size - used, " from ");
+  write_words(starts, value, words + used + 6, size - used - 6);
+}
+
+/* Whether a sample beside one has its value: forecasts of one time. */
+static bool is_shared(const fg__variable *times, size_t index, double value)
+{
+  const size_t count = times->owner->dimensions[times->dimension[0]].length;
+  double other;
+  for (int after = 0; after < 2; ++after) {
+    const size_t beside = after ? index + 1 : index - 1;
+    if ((after ? beside < count : index > 0) &&
+        fg__variable_fetch_one(times, &beside, &other) == FG_STATUS_OK && other == value)
+      return true;
+  }
+  return false;
+}
+
 fg_status fg__index_words(const fg__variable *coordinate, const char *name, size_t index,
                           char *out, size_t size)
 {
@@ -239,6 +298,9 @@ fg_status fg__index_words(const fg__variable *coordinate, const char *name, size
   if (status != FG_STATUS_OK)
     return status;
   write_words(coordinate, value, out, size);
+  const fg__variable *starts = starts_of(coordinate);
+  if (starts && is_shared(coordinate, index, value))
+    add_start(starts, index, out, size);
   return FG_STATUS_OK;
 }
 
@@ -251,6 +313,7 @@ static bool write_texts(char **text, size_t *starts, const fg__variable *coordin
 {
   char units[FG__TEXT_BYTES] = "", words[FG__TEXT_BYTES];
   size_t used = 0, capacity = 0;
+  const fg__variable *starts_along = starts_of(coordinate);
   if (fg__is_number(coordinate))
     fg__attribute_text(coordinate, "units", units, sizeof units);
   fg__units_read(units, words, sizeof words);
@@ -261,8 +324,12 @@ static bool write_texts(char **text, size_t *starts, const fg__variable *coordin
     memcpy(*text + used, words, length);
     starts[n] = used;
     used += length;
-    if (n < count)
-      write_words(coordinate, number[n], words, sizeof words);
+    if (n == count)
+      continue;
+    write_words(coordinate, number[n], words, sizeof words);
+    if (starts_along && ((n > 0 && number[n - 1] == number[n]) ||
+                         (n + 1 < count && number[n + 1] == number[n])))
+      add_start(starts_along, n, words, sizeof words);
   }
   return true;
 }

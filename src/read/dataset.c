@@ -4,7 +4,9 @@
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
+#include "sample/layers.h"
 #include "sample/missing.h"
+#include "sample/space/space.h"
 #include "sample/unstructured/mesh.h"
 #include "sample/velocity.h"
 
@@ -56,6 +58,12 @@ static void keep_missing(const fg_field *field, const fg__velocity_samples *read
   }
 }
 
+static bool has_two_layers(const fg__grid *grid)
+{
+  return grid->dimension == 3 &&
+         (grid->axis[0].size == 2 || grid->axis[1].size == 2 || grid->axis[2].size == 2);
+}
+
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg_read_options *options,
                             fg__slab_index slab)
@@ -64,7 +72,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
   const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
-  if (last->period > 0.0)
+  if (last->period > 0.0 || has_two_layers(grid))
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
   fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
@@ -104,7 +112,9 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
       keep_missing(*out, &read);
   }
   fg__velocity_samples_clear(&read);
-  return status;
+  return status == FG_STATUS_OK && has_two_layers(grid)
+             ? fg__drop_layer(out, data->context)
+             : status;
 }
 
 static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int level)
@@ -113,10 +123,9 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
     return check_index(data, "level", level, grid->level, grid->levels, grid->level_name);
   if (level == 0)
     return FG_STATUS_OK;
-  fg__fail(
-      data->context, FG_STATUS_ARGUMENT,
-      "%s: level %d asked for, but the field has three components and all %zu levels",
-      data->file[0].path, level, grid->levels);
+  fg__fail(data->context, FG_STATUS_ARGUMENT,
+           "%s: level %d asked for, but it has three components and all %zu levels",
+           data->file[0].path, level, grid->levels);
   fg__hint(data->context, "name two components, --vars U,V, for the plane of one level");
   return FG_STATUS_ARGUMENT;
 }
@@ -124,9 +133,12 @@ static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int 
 static fg_status check_places(const fg__vector_choice *c, const fg_read_options *options)
 {
   const fg__grid *grid = &c->grid;
-  const fg_status status = check_index(&c->data, "time", options->time, grid->time,
-                                       grid->times, grid->time_name);
-  return status == FG_STATUS_OK ? check_level(&c->data, grid, options->level) : status;
+  fg_status status = check_index(&c->data, "time", options->time, grid->time, grid->times,
+                                 grid->time_name);
+  if (status == FG_STATUS_OK)
+    status = check_level(&c->data, grid, options->level);
+  return status == FG_STATUS_OK ? fg__check_samples(&c->data, &c->pair, &c->grid, options)
+                                : status;
 }
 
 fg_status fg__dataset_read(fg_field **out, fg_context *context,
@@ -144,11 +156,13 @@ fg_status fg__dataset_read(fg_field **out, fg_context *context,
       status = fg__globe_field(out, context, sphere, slab);
   } else if (status == FG_STATUS_OK && c->grid.unstructured) {
     status = fg__unstructured_field(out, &c->data, &c->pair, &c->grid, options, slab);
+  } else if (status == FG_STATUS_OK && c->grid.domain) {
+    status = fg__space_field(out, &c->data, &c->pair, &c->grid, options, slab);
   } else if (status == FG_STATUS_OK) {
     status = make_field(out, &c->data, &c->pair, &c->grid, options, slab);
   }
   fg__sphere_destroy(sphere);
-  return fg__vector_choice_leave(c, source, status);
+  return fg__vector_choice_leave(c, status);
 }
 
 fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
@@ -163,35 +177,20 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
     status = fg__sphere_read(out, &c->data, &c->pair, &c->grid, options);
   else if (status == FG_STATUS_OK && c->grid.unstructured)
     status = fg__unstructured_sphere(out, &c->data, &c->pair, &c->grid, options);
-  return fg__vector_choice_leave(c, source, status);
+  return fg__vector_choice_leave(c, status);
 }
 
-/* Samples in memory at a time while an inventory counts missing values. */
-enum { COUNTED_AT_ONCE = 1 << 22 };
-
-static fg_status count_missing(fg_inventory_vector *vector, const fg__dataset *data,
-                               const fg__pair *pair, const fg__grid *grid)
+/* Two layers of a volume may be a plane. */
+static void describe_layers(fg_inventory_vector *vector, const fg__dataset *data,
+                            const fg__pair *pair, const fg__grid *grid)
 {
-  const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
-  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
-  size_t count = 0;
-  fg_status status = FG_STATUS_OK;
-  for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
-    const int own = (int)(all - first < most ? all - first : most);
-    const fg__rows rows = {(int)first, own, own};
-    fg__velocity_samples read = {0};
-    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, 0, 0, NULL);
-    for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
-      bool missing = read.valid && !read.valid[i];
-      for (int k = 0; k < grid->dimension; ++k)
-        missing = missing || !isfinite(read.velocity[k][i]);
-      count += missing;
-    }
-    fg__velocity_samples_clear(&read);
-  }
-  if (status == FG_STATUS_OK)
-    vector->missing_share = (double)count / (double)grid->samples;
-  return status;
+  const fg_read_options first = fg__first_samples(pair, grid);
+  fg_field *field = NULL;
+  if (make_field(&field, data, pair, grid, &first, (fg__slab_index){0, 1}))
+    fg_context_clear(data->context);
+  if (field && fg_field_contents(field)->dimension == 2)
+    fg__describe_field(vector, field);
+  fg_field_destroy(field);
 }
 
 /* Adds a vector with its times and levels. */
@@ -201,7 +200,9 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
   fg_axis_value *times = NULL, *levels = NULL;
   char *time_text = NULL, *level_text = NULL;
   fg_status status = FG_STATUS_OK;
-  if (!vector->unusable)
+  if (!vector->unusable && grid->domain)
+    status = fg__space_times(&times, &time_text, data);
+  else if (!vector->unusable)
     status = fg__index_values(&times, &time_text, data, grid, true);
   if (!vector->unusable && grid->dimension == 2 && status == FG_STATUS_OK)
     status = fg__index_values(&levels, &level_text, data, grid, false);
@@ -267,7 +268,11 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
     return fg__curvilinear_describe(vector, data, pair, grid);
   if (grid->unstructured)
     return fg__unstructured_describe(vector, data, pair, grid);
-  return count_missing(vector, data, pair, grid);
+  if (grid->domain)
+    return fg__space_count(vector, data, pair, grid);
+  if (has_two_layers(grid))
+    describe_layers(vector, data, pair, grid);
+  return fg__velocity_missing(&vector->missing_share, data, pair, grid);
 }
 
 /* Takes the message of a refusal, without the file's name, and its hint. */
@@ -287,11 +292,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
                                const fg__pair *pair, fg__grid *grid,
                                const fg_read_options *options, bool reads)
 {
-  vector_texts texts;
+  vector_texts texts = {.chosen = ""};
   fg_read_defaults defaults;
   fg_status status = fg__defaults_find(&defaults, data, pair, grid, options);
   fg__velocity_units(texts.units, sizeof texts.units, pair);
-  texts.chosen[0] = '\0';
   for (int of_time = 0; of_time < 2 && status == FG_STATUS_OK; ++of_time)
     status = fg__chosen_words(data, pair->component[0], of_time == 1, texts.chosen,
                               sizeof texts.chosen);
@@ -299,7 +303,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .components = grid->dimension,
       .name = {pair->component[0]->name,
                pair->component[0]->element ? NULL : pair->component[1]->name,
-               grid->dimension == 3 ? pair->component[2]->name : NULL},
+               grid->dimension == 3 && pair->component[2] ? pair->component[2]->name
+                                                          : NULL},
       .units = texts.units,
       .found_by = pair->found_by,
       .dimension = grid->dimension,
@@ -312,9 +317,11 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .absent = defaults.absent[0] ? defaults.absent : NULL,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
-  const bool on_axes = !grid->mesh && !grid->unstructured;
+  const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
   if (on_axes)
     describe_axes(&vector, grid);
+  if (grid->domain && status == FG_STATUS_OK)
+    status = fg__space_describe(&vector, data, pair, grid);
   if (grid->unusable[0]) {
     snprintf(texts.unusable, sizeof texts.unusable, "%s%s%s", grid->unusable,
              grid->hint[0] ? "; " : "", grid->hint);
@@ -354,14 +361,13 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
   fg__dataset data = {0};
   fg__pair *pairs = NULL;
   size_t count = 0;
-  fg_status status = fg__dataset_open_file(&data, context, format, source);
+  fg_status status = fg__dataset_open(&data, context, format, source, NULL);
   if (status == FG_STATUS_OK)
     status = fg__pairs_find(&pairs, &count, &data);
   for (size_t i = 0; i < count && status == FG_STATUS_OK; ++i)
     status = describe_pair(inventory, &data, &pairs[i]);
   free(pairs);
-  fg__dataset_close(&data);
-  return status;
+  return fg__dataset_end(&data, status);
 }
 
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
@@ -374,7 +380,7 @@ fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
   fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
-  return fg__vector_choice_leave(c, source, status);
+  return fg__vector_choice_leave(c, status);
 }
 
 fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
@@ -385,5 +391,5 @@ fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
   fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
-  return fg__vector_choice_leave(c, source, status);
+  return fg__vector_choice_leave(c, status);
 }

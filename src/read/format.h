@@ -40,6 +40,7 @@ extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
+extern const fg__format fg__format_vtk_series;
 extern const fg__format fg__format_npy;
 extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */

@@ -9,14 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-fg_status fg__dataset_open_file(fg__dataset *data, fg_context *context,
-                                const fg__dataset_format *format,
-                                const fg__source *source)
-{
-  const fg_status status = format->open(data, context, source);
-  return status == FG_STATUS_OK ? fg__settle_names(data) : status;
-}
-
 /* Whether two paths lead to one file. */
 static bool is_one_file(const char *path, const char *other)
 {
@@ -37,7 +29,7 @@ static fg_status add_file(fg__dataset *data, fg_context *context,
     status = fg__fail(context, FG_STATUS_FILE_FORMAT,
                       "%s: is no %s file like the first one", path, format->name);
   if (status == FG_STATUS_OK)
-    status = fg__dataset_open_file(data, context, format, &source);
+    status = fg__dataset_open(data, context, format, &source, NULL);
   return fg__source_close(&source, context, status);
 }
 
@@ -83,7 +75,7 @@ static void close_choice(void *data)
 {
   fg__vector_choice *c = data;
   fg__grid_clear(&c->grid);
-  fg__dataset_close(&c->data);
+  fg__dataset_end(&c->data, FG_STATUS_OK);
   free(c);
 }
 
@@ -92,7 +84,7 @@ static fg_status choose(fg__vector_choice *c, fg_context *context,
                         const fg_read_options *options)
 {
   fg__dataset *data = &c->data;
-  fg_status status = fg__dataset_open_file(data, context, format, source);
+  fg_status status = fg__dataset_open(data, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = fg__missing_read(&data->missing, context, options->missing);
   if (status == FG_STATUS_OK && options->vars_from) {
@@ -118,7 +110,9 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
                                   const fg__source *source,
                                   const fg_read_options *options)
 {
-  fg__vector_choice *c = source->kept ? source->kept->data : NULL;
+  /* what options open depends on their time and block */
+  fg__kept *kept = format->open_chosen ? NULL : source->kept;
+  fg__vector_choice *c = kept ? kept->data : NULL;
   *out = NULL;
   if (!c) {
     c = fg__allocate(1, sizeof *c);
@@ -129,8 +123,9 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
       close_choice(c);
       return status;
     }
-    if (source->kept)
-      *source->kept = (fg__kept){c, close_choice};
+    c->is_kept = kept != NULL;
+    if (kept)
+      *kept = (fg__kept){c, close_choice};
   }
   c->data.context = context;
   memcpy(c->grid.doubts, c->doubts, sizeof c->doubts);
@@ -138,13 +133,11 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
   return FG_STATUS_OK;
 }
 
-fg_status fg__vector_choice_leave(fg__vector_choice *c, const fg__source *source,
-                                  fg_status status)
+fg_status fg__vector_choice_leave(fg__vector_choice *c, fg_status status)
 {
-  for (int n = 1; c && n < c->data.files; ++n)
-    status = fg__source_check(c->data.context, status, c->data.file[n].path,
-                              c->data.file[n].size);
-  if (c && !source->kept)
+  if (c)
+    status = fg__dataset_check(&c->data, status);
+  if (c && !c->is_kept)
     close_choice(c);
   return status;
 }

@@ -9,13 +9,9 @@ typedef struct fg__vector_choice {
   fg__dataset data;
   fg__pair pair;
   fg__grid grid;
+  bool is_kept;                  /* for later calls */
   char doubts[FG__REASON_BYTES]; /* of the grid, before samples are read */
 } fg__vector_choice;
-
-/* Adds a file to a dataset. */
-fg_status fg__dataset_open_file(fg__dataset *data, fg_context *context,
-                                const fg__dataset_format *format,
-                                const fg__source *source);
 
 /* Opens the source and chooses the vector, or takes what is kept of an earlier call. *out
  * is NULL after a failure. */
@@ -26,7 +22,6 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
 
 /* Closes what is not kept. Returns the status, that of the call, or that of a further
  * file which has become shorter. `choice` may be NULL. */
-fg_status fg__vector_choice_leave(fg__vector_choice *choice, const fg__source *source,
-                                  fg_status status);
+fg_status fg__vector_choice_leave(fg__vector_choice *choice, fg_status status);
 
 #endif

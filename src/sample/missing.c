@@ -140,6 +140,15 @@ static fg_status refuse(fg_context *context, const fg__raw_samples *s, int k,
   return FG_STATUS_ARGUMENT;
 }
 
+bool fg__missing_is_suspect(const fg__raw_samples *samples)
+{
+  for (int k = 0; k < samples->components; ++k)
+    for (size_t i = 0; i < samples->count; ++i)
+      if (fabsf(samples->component[k][i]) >= SMALLEST_CODE)
+        return true;
+  return false;
+}
+
 fg_status fg__missing_settle(fg_context *context, const fg__raw_samples *samples,
                              const fg__missing_numbers *given)
 {

@@ -19,6 +19,10 @@ typedef struct fg__raw_samples {
 fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
                            const char *missing);
 
+/* Whether any of the samples is as large as numbers that stand for missing data are: of
+ * rows of a field all rows then decide. */
+bool fg__missing_is_suspect(const fg__raw_samples *samples);
+
 /* Makes samples NaN that are one of the given numbers; then refuses a component where one
  * number recurs that lies apart from all others, as -9999 or 1e20, unless none is
  * missing: the message has its name, its share and the option that decides. FILE_FORMAT.

@@ -48,6 +48,7 @@ typedef struct source {
   const fg__grid *grid;
   const fg__rows *rows;
   size_t time, level;
+  const char *mask; /* NULL: none is named */
 } source;
 
 /* The means of both faces; a missing face beside a present one is a wall (0). Returns the
@@ -177,6 +178,23 @@ static fg_status read_mask(fg__velocity_samples *out, const source *from,
   return status;
 }
 
+static fg_status read_settled(fg__velocity_samples *out, const source *from,
+                              const char *mask);
+
+/* What some rows may hold all rows decide, so that every part of a field is refused where
+ * the whole is. */
+static fg_status settle_whole(const source *from)
+{
+  const int all = (int)from->grid->axis[from->grid->dimension - 1].size;
+  const fg__rows rows = {0, all, all};
+  source whole = *from;
+  fg__velocity_samples samples = {0};
+  whole.rows = &rows;
+  const fg_status status = read_settled(&samples, &whole, from->mask);
+  fg__velocity_samples_clear(&samples);
+  return status;
+}
+
 static fg_status settle_missing(const fg__velocity_samples *out, const source *from)
 {
   fg__raw_samples raw = {.path = from->data->file[0].path,
@@ -187,7 +205,21 @@ static fg_status settle_missing(const fg__velocity_samples *out, const source *f
     raw.name[k] = from->pair->component[k]->plain_name;
     raw.component[k] = out->velocity[k];
   }
-  return fg__missing_settle(from->data->context, &raw, &from->data->missing);
+  const size_t all = from->grid->axis[from->grid->dimension - 1].size;
+  if ((size_t)from->rows->own == all || from->data->missing.none)
+    return fg__missing_settle(from->data->context, &raw, &from->data->missing);
+  return fg__missing_is_suspect(&raw) ? settle_whole(from) : FG_STATUS_OK;
+}
+
+static fg_status read_settled(fg__velocity_samples *out, const source *from,
+                              const char *mask)
+{
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < from->grid->dimension && status == FG_STATUS_OK; ++k)
+    status = read_component(out, from, k);
+  if (status == FG_STATUS_OK && (mask || from->grid->hidden))
+    status = read_mask(out, from, mask);
+  return status == FG_STATUS_OK ? settle_missing(out, from) : status;
 }
 
 fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset *data,
@@ -195,15 +227,9 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
                                     const fg__rows *rows, size_t time, size_t level,
                                     const char *mask)
 {
-  const source from = {data, pair, grid, rows, time, level};
+  const source from = {data, pair, grid, rows, time, level, mask};
   *out = (fg__velocity_samples){0};
-  fg_status status = FG_STATUS_OK;
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k)
-    status = read_component(out, &from, k);
-  if (status == FG_STATUS_OK && (mask || grid->hidden))
-    status = read_mask(out, &from, mask);
-  if (status == FG_STATUS_OK)
-    status = settle_missing(out, &from);
+  fg_status status = read_settled(out, &from, mask);
   if (status == FG_STATUS_OK)
     status = fg__polar_turn_all(data->context, out->velocity,
                                 row_size(grid) * (size_t)rows->held, &pair->polar,
@@ -219,4 +245,33 @@ void fg__velocity_samples_clear(fg__velocity_samples *samples)
     free(samples->velocity[k]);
   free(samples->valid);
   *samples = (fg__velocity_samples){0};
+}
+
+enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
+
+fg_status fg__velocity_missing(double *share, const fg__dataset *data,
+                               const fg__pair *pair, const fg__grid *grid)
+{
+  const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
+  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  const fg_read_options at = fg__first_samples(pair, grid);
+  size_t count = 0;
+  fg_status status = FG_STATUS_OK;
+  for (size_t first = 0; first < all && status == FG_STATUS_OK; first += most) {
+    const int own = (int)(all - first < most ? all - first : most);
+    const fg__rows rows = {(int)first, own, own};
+    fg__velocity_samples read = {0};
+    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)at.time,
+                                       (size_t)at.level, NULL);
+    for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
+      bool missing = read.valid && !read.valid[i];
+      for (int k = 0; k < grid->dimension; ++k)
+        missing = missing || !isfinite(read.velocity[k][i]);
+      count += missing;
+    }
+    fg__velocity_samples_clear(&read);
+  }
+  if (status == FG_STATUS_OK)
+    *share = (double)count / (double)grid->samples;
+  return status;
 }

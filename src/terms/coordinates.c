@@ -137,12 +137,14 @@ fg__role fg__geographic_role(const fg__term *term)
   if (unit.quantity == FG__QUANTITY_DEGREES_EAST ||
       unit.quantity == FG__QUANTITY_DEGREES_NORTH)
     return unit.quantity == FG__QUANTITY_DEGREES_EAST ? FG__ROLE_X : FG__ROLE_Y;
-  if (units[0] && unit.quantity != FG__QUANTITY_DEGREES)
+  const bool radians = unit.quantity == FG__QUANTITY_RADIANS;
+  if (units[0] && unit.quantity != FG__QUANTITY_DEGREES && !radians)
     return FG__NO_ROLE;
   if (name[0])
     return find_role(standard, COUNT_OF(standard), name);
   for (int k = 0; k < 2; ++k)
     if (fg__starts_with(plain, k == 0 ? "lon" : "lat") ||
+        (radians && fg__find_text(plain, k == 0 ? "lon" : "lat")) ||
         fg__column_fits(plain, k == 0 ? FG__COLUMN_LONGITUDE : FG__COLUMN_LATITUDE))
       return k == 0 ? FG__ROLE_X : FG__ROLE_Y;
   return FG__NO_ROLE;

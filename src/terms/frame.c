@@ -29,9 +29,12 @@ static bool begins(const char *text, const char *start)
   return strncmp(text, start, strlen(start)) == 0;
 }
 
+/* cfgrib writes "eastward" whatever the flag of a message is. */
 static int by_standard_name(const fg__term *u)
 {
   const char *name = or_empty(u->standard_name);
+  if (u->frame != 0)
+    return u->frame;
   if (begins(name, "grid_"))
     return -1; /* grid_eastward_wind */
   if (strstr(name, "eastward") || strstr(name, "northward"))
@@ -74,7 +77,10 @@ int fg__frame_of_terms(char *why, size_t size, const fg__term *u, const fg__term
   const char *word = east_word(u, words), *plain = fg__last_part(u->name);
   word = word ? word : east_word(v, words);
   if (standard != 0) {
-    snprintf(why, size, "standard_name %.120s", u->standard_name);
+    if (u->frame != 0)
+      snprintf(why, size, "GRIB_uvRelativeToGrid");
+    else
+      snprintf(why, size, "standard_name %.120s", u->standard_name);
     return standard;
   }
   if (word && !evidence->staggered) {

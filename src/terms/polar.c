@@ -289,12 +289,12 @@ fg_status fg__angles_check(const fg__angles *angles, fg_context *context,
   const bool radians = polar->unit == 1.0;
   if (!are_of_other_unit(angles, polar))
     return FG_STATUS_OK;
-  fg__fail(context, FG_STATUS_FILE_FORMAT,
+  fg__fail(context, FG_STATUS_ARGUMENT,
            "%s: the direction '%.120s' is in %s, but its numbers, %g to %g, are %s", path,
            name, radians ? "radians" : "degrees", angles->least, angles->most,
            radians ? "degrees" : "radians");
   fg__hint(context, "correct its units in the file");
-  return FG_STATUS_FILE_FORMAT;
+  return FG_STATUS_ARGUMENT;
 }
 
 fg_status fg__polar_turn_all(fg_context *context, float *const vector[2], size_t count,

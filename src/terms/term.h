@@ -10,6 +10,8 @@ typedef struct fg__term {
   int place; /* equal for variables whose samples are at the same points */
   int group; /* components of one vector are of one group, such as points or cells */
   int file;  /* the one that has it, of two; -1: either */
+  int frame; /* of components, by GRIB's flag: 1 east and north, -1 along the grid, 0
+                unknown */
 } fg__term;
 
 #endif

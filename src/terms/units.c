@@ -224,3 +224,32 @@ const char *fg__units_of_name(const char *name)
 {
   return fg__is_same(name, "sknt") ? "kn" : "";
 }
+
+bool fg__fill_radians(const double longitude[2], const double latitude[2])
+{
+  const double turn = 360.0 * FG__RADIANS, rounding = 0.01,
+               west = longitude[0] < -rounding ? -0.5 * turn : 0.0;
+  return longitude[1] - longitude[0] > 0.9 * turn && longitude[0] >= west - rounding &&
+         longitude[1] <= west + turn + rounding &&
+         latitude[1] - latitude[0] > 0.4 * turn &&
+         fmax(-latitude[0], latitude[1]) <= 0.25 * turn + rounding;
+}
+
+fg_status fg__check_degrees(fg_context *context, const char *path,
+                            const double *longitude, const double *latitude, size_t count)
+{
+  double range[2][2] = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}};
+  for (size_t n = 0; n < count; ++n)
+    for (int k = 0; k < 2 && isfinite(longitude[n]) && isfinite(latitude[n]); ++k) {
+      const double at = k == 0 ? longitude[n] : latitude[n];
+      range[k][0] = fmin(range[k][0], at);
+      range[k][1] = fmax(range[k][1], at);
+    }
+  if (!fg__fill_radians(range[0], range[1]))
+    return FG_STATUS_OK;
+  fg__fail(context, FG_STATUS_ARGUMENT,
+           "%s: longitudes %g to %g and latitudes %g to %g are radians, not degrees",
+           path, range[0][0], range[0][1], range[1][0], range[1][1]);
+  fg__hint(context, "correct their units in the file");
+  return FG_STATUS_ARGUMENT;
+}

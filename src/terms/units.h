@@ -3,6 +3,8 @@
 #ifndef FG__TERMS_UNITS_H
 #define FG__TERMS_UNITS_H
 
+#include "base/context.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -50,6 +52,14 @@ bool fg__units_differ(const char *a, const char *b);
 
 /* The units that a name implies, "kn" of METAR's sknt; "": none. */
 const char *fg__units_of_name(const char *name);
+
+/* ARGUMENT: longitudes and latitudes that are in degrees fill the globe in radians. */
+fg_status fg__check_degrees(fg_context *context, const char *path,
+                            const double *longitude, const double *latitude,
+                            size_t count);
+
+/* Whether those between these ends do. */
+bool fg__fill_radians(const double longitude[2], const double latitude[2]);
 
 /* Whether a word is a unit that stands behind a name without brackets: "X mm". */
 bool fg__is_unit_in_name(const char *word);

@@ -1,42 +1,62 @@
-#include "file/folder_test.h"
-#include "read/vtk/vtk.h"
+#include <math.h>
+#include <stdlib.h>
 
-static fg__vtk_values values_of(const fg__vtk *vti, fg__vtk_place place, const char *name)
-{
-  const fg__vtk_array *array = fg__vtk_find(vti, 0, place, name);
-  assert_non_null(array);
-  size_t count;
-  fg__vtk_values values;
-  assert_true(fg__vtk_count(&count, vti->extent, place));
-  assert_int_equal(fg__vtk_values_create(&values, vti, array, count), FG_STATUS_OK);
-  return values;
-}
+#include "decode/vtk/vtk.h"
+#include "file/folder_test.h"
 
 /* What a file has of a density. */
 typedef struct written {
   fg__source source;
-  fg__vtk vti;
-  fg__vtk_values u, cluster, ghost;
+  fg__dataset data;
+  double *u, *cluster, *ghost;
 } written;
+
+static double *values_of(const fg__dataset *data, const char *name)
+{
+  const fg__variable *v = fg__dataset_find(data, name);
+  assert_non_null(v);
+  const size_t start[3] = {0, 0, 0};
+  size_t size[3], count = 1;
+  for (int k = 0; k < 3; ++k)
+    count *= size[k] = data->dimensions[v->dimension[k]].length;
+  double *out = malloc(count * sizeof *out);
+  assert_non_null(out);
+  assert_int_equal(fg__variable_fetch(v, start, size, out), FG_STATUS_OK);
+  return out;
+}
 
 static void write_and_open(written *out, folder *f, const fg_density *density)
 {
+  *out = (written){.u = NULL};
   assert_int_equal(fg_density_write(f->context, path_of(f, "u.vti"), density),
                    FG_STATUS_OK);
   assert_int_equal(fg__source_open(&out->source, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg__vtk_open_xml(&out->vti, f->context, &out->source, NULL),
+  assert_int_equal(fg__vtk_open(&out->data, f->context, &out->source, NULL),
                    FG_STATUS_OK);
-  out->u = values_of(&out->vti, FG__VTK_POINTS, "u");
-  out->cluster = values_of(&out->vti, FG__VTK_POINTS, "cluster");
-  out->ghost = values_of(&out->vti, FG__VTK_CELLS, "vtkGhostType");
+  out->u = values_of(&out->data, "u");
+  out->cluster = values_of(&out->data, "cluster");
+  out->ghost = values_of(&out->data, "vtkGhostType");
+}
+
+/* A number that the file has of itself, or of an axis. */
+static double number_of(const fg__variable *of, const char *name)
+{
+  double out = (double)NAN;
+  assert_int_equal(fg__attribute_numbers(of, name, &out, 1), 1);
+  return out;
+}
+
+static double axis_number(const written *w, int axis, const char *name)
+{
+  return number_of(&w->data.variables[w->data.space.axis[axis]], name);
 }
 
 static void close_written(written *w)
 {
-  fg__vtk_values_clear(&w->ghost);
-  fg__vtk_values_clear(&w->cluster);
-  fg__vtk_values_clear(&w->u);
-  assert_int_equal(fg__vtk_close(&w->vti, FG_STATUS_OK), FG_STATUS_OK);
+  free(w->ghost);
+  free(w->cluster);
+  free(w->u);
+  fg__dataset_close(&w->data);
   fg__source_close(&w->source, NULL, FG_STATUS_OK);
 }
 
@@ -72,21 +92,21 @@ static void a_density_shows_clusters_and_mask(void **state)
   fg_context_clear(f->context);
   written w;
   write_and_open(&w, f, density);
-  assert_int_equal(w.vti.extent[1], WIDE); /* the first column again at the end */
-  assert_int_equal(w.vti.extent[3], HIGH - 1);
-  assert_true(w.vti.origin[0] == -1.0 && w.vti.spacing[1] == 0.25);
+  assert_int_equal(w.data.space.points[0],
+                   WIDE + 1); /* the first column again at the end */
+  assert_int_equal(w.data.space.points[1], HIGH);
+  assert_true(axis_number(&w, 0, "origin") == -1.0 &&
+              axis_number(&w, 1, "spacing") == 0.25);
   for (size_t y = 0; y < HIGH; ++y)
     for (size_t x = 0; x <= WIDE; ++x) {
       size_t at = y * (WIDE + 1) + x, node = y * WIDE + x % WIDE;
-      assert_true(fg__vtk_value(&w.u, at) == (double)u[node]);
+      assert_true(w.u[at] == (double)u[node]);
       double label = u[node] < 0.0f ? 0.0 : y < 2 ? 1.0 : 2.0;
-      assert_true(fg__vtk_value(&w.cluster, at) == label);
+      assert_true(w.cluster[at] == label);
     }
   for (size_t i = 0; i < sizeof active; ++i)
-    assert_true(fg__vtk_value(&w.ghost, i) == (active[i] ? 0.0 : 32.0));
-  const fg__vtk_array *time = fg__vtk_find(&w.vti, 0, FG__VTK_FIELD, "TimeValue");
-  assert_non_null(time);
-  assert_non_null(strstr(time->text, "0.0001"));
+    assert_true(w.ghost[i] == (active[i] ? 0.0 : 32.0));
+  assert_true(fabs(number_of(w.data.groups, "TimeValue") - 1e-4) < 1e-9);
   close_written(&w);
   fg_density_destroy(density);
 }
@@ -121,20 +141,21 @@ static void a_density_in_space_comes_back(void **state)
                    FG_STATUS_OK);
   written w;
   write_and_open(&w, f, density);
-  const int extent[6] = {0, WIDE - 1, 0, HIGH - 1, 0, DEEP};
-  assert_memory_equal(w.vti.extent, extent, sizeof extent);
-  assert_true(w.vti.origin[2] == 30.0 && w.vti.spacing[2] == 2.0);
+  const size_t points[3] = {WIDE, HIGH, DEEP + 1};
+  assert_memory_equal(w.data.space.points, points, sizeof points);
+  assert_true(axis_number(&w, 2, "origin") == 30.0 &&
+              axis_number(&w, 2, "spacing") == 2.0);
   for (size_t z = 0; z <= DEEP; ++z)
     for (size_t y = 0; y < HIGH; ++y)
       for (size_t x = 0; x < WIDE; ++x) {
         size_t at = AT(x, y, z), node = AT(x, y, z % DEEP);
         double label = u[node] < 0.0f ? 0.0 : x == 1 ? 1.0 : x == 4 ? 2.0 : -1.0;
-        assert_true(fg__vtk_value(&w.u, at) == (double)u[node]);
-        assert_true(fg__vtk_value(&w.cluster, at) == label);
+        assert_true(w.u[at] == (double)u[node]);
+        assert_true(w.cluster[at] == label);
       }
 #undef AT
   for (size_t i = 0; i < CELLS; ++i)
-    assert_true(fg__vtk_value(&w.ghost, i) == (active[i] ? 0.0 : 32.0));
+    assert_true(w.ghost[i] == (active[i] ? 0.0 : 32.0));
   close_written(&w);
   fg_density_destroy(density);
 }

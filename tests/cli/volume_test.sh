@@ -33,6 +33,13 @@ try info --json --slice y=0.5 synth:abc
 expect_code 0
 cp out cut.json
 expect_json cut.json '.vectors[0].size == [64, 64] and (.vectors[0].normal_share * 3 | round) == 1'
+expect_json cut.json '.vectors[0].axes == ["x", "z"]'
+try info --slice x=0.5 abc.vti
+expect_code 0
+grep -q '^  y: 0 to 1$' out && grep -q '^  z: 0 to 1$' out || fault "$(cat out)"
+try info --vars u,v,w abc.nc
+expect_code 0
+grep -q '^vectors: u,v,w$' out || fault "$(cat out)"
 try info --slice y=7 synth:vortex
 expect_code 1
 expect_error 'a cut through a field in 2 dimensions'

@@ -1,6 +1,6 @@
 #include "make_corpus.h"
 
-#include "read/grib/sample.h"
+#include "read/grib/grib_example.h"
 
 /* Sines on the grid of one of ecCodes' samples, as the wind's components. */
 static void make_grib(const char *name, const char *sample, const char *packing,

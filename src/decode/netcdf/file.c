@@ -205,15 +205,7 @@ static fg_status split_vector(fg__dataset *dataset)
   if (!is_vector(dataset, v))
     return FG_STATUS_OK;
   --v->rank;
-  v->element = 1;
-  const fg__variable first = *v;
-  fg__variable *second = fg__dataset_add_variable(dataset, "", "");
-  if (!second)
-    return FG_STATUS_MEMORY;
-  free(second->name);
-  *second = first;
-  second->element = 2;
-  return FG_STATUS_OK;
+  return fg__dataset_split(dataset, 2);
 }
 
 static fg_status list_variable(const listing *l, int id)

@@ -201,15 +201,6 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
   return status;
 }
 
-static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, char *out,
-                             size_t size)
-{
-  (void)first;
-  memset(out, 0, count * size);
-  return fg__fail(v->owner->context, FG_STATUS_UNSUPPORTED, "%s: '%s' is of numbers",
-                  v->path, v->name);
-}
-
 static void close_state(void *state)
 {
   numpy_state *file = state;
@@ -218,10 +209,8 @@ static void close_state(void *state)
   free(file);
 }
 
-static const fg__decoder DECODER = {.fetch = fetch,
-                                    .fetch_texts = fetch_texts,
-                                    .close = close_state,
-                                    .has_no_titles = true};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .close = close_state, .has_no_titles = true};
 
 static fg__type type_of(const fg__npy_array *a)
 {

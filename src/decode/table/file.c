@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/memory.h"
 #include "file/number_text.h"
@@ -61,11 +60,6 @@ static fg_status check_line(const fg__table *table, const fg__table_line *line)
     return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
                     "%s: line %d has %zu bytes; no table's has more than %d", table->path,
                     line->number, line->size, FG__TABLE_LINE);
-  if (table->kind == FG__TABLE_TECPLOT && line->size > 4 &&
-      strncasecmp(line->text, "ZONE", 4) == 0)
-    return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
-                    "%s: line %d begins a second zone; only files of one can be read",
-                    table->path, line->number);
   return FG_STATUS_OK;
 }
 
@@ -250,6 +244,8 @@ fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
   if (dataset->files > 0)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a second file cannot be used with a table", source->path);
+  if (fg__has_zones(source))
+    return fg__tecplot_open(dataset, context, source);
   table_state *s = fg__allocate(1, sizeof *s);
   if (!s)
     return fg__fail_memory(context, "a table", sizeof *s);

@@ -156,8 +156,6 @@ static int read_variables(fg__table_column *out, int most, const char *at,
 static fg_status read_tecplot(bool *found, fg__table *table, const char *text,
                               const char *end)
 {
-  static const char *const others[] = {"BLOCK",   "FEPOINT", "FETRI", "FEQUAD",
-                                       "FEBRICK", "FETET",   "FEPOLY"};
   const char *variables = find_word(text, end, "VARIABLES");
   const char *at = variables ? variables + strlen("VARIABLES") : end;
   while (at < end && is_part(*at))
@@ -165,14 +163,6 @@ static fg_status read_tecplot(bool *found, fg__table *table, const char *text,
   *found = at < end && *at == '=';
   if (!*found)
     return FG_STATUS_OK;
-  table->kind = FG__TABLE_TECPLOT;
-  const char *zone = find_word(at, end, "ZONE");
-  for (size_t i = 0; zone && i < sizeof others / sizeof *others; ++i)
-    if (find_word(zone, end, others[i]))
-      return fg__fail(table->context, FG_STATUS_UNSUPPORTED,
-                      "%s: a Tecplot zone in %s; only ordered zones in POINT format can "
-                      "be read",
-                      table->path, others[i]);
   const int count = read_variables(table->column, table->columns, at + 1, end);
   if (count != table->columns)
     return fg__fail(table->context, FG_STATUS_FILE_FORMAT,

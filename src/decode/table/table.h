@@ -1,6 +1,6 @@
 /* Tables of numbers in text, a point a line: CSV and the like, exports of PIV programs,
  * Tecplot's point format. In the order a file passes through the parts: lines, layout,
- * header, file. */
+ * header, file; Tecplot's zones through tecplot. */
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
@@ -68,7 +68,6 @@ typedef struct fg__table_column {
 
 typedef enum fg__table_kind {
   FG__TABLE_PLAIN = 0,
-  FG__TABLE_TECPLOT,
   FG__TABLE_DAVIS /* its invalid vectors are (0, 0) */
 } fg__table_kind;
 
@@ -91,6 +90,15 @@ fg_status fg__table_find_names(fg__table *table, const fg__source *source);
 
 /* Sets a column's name and units from "u (m/s)", "x [mm]", "X mm", "U[i] (m/s)". */
 void fg__table_name(fg__table_column *column, const char *text, size_t size);
+
+/* tecplot.c. Whether a text is Tecplot's and has several zones, one of a time, of cells,
+ * or packed by variables. */
+bool fg__has_zones(const fg__source *source);
+
+/* Adds such a file to a dataset. FILE_FORMAT, UNSUPPORTED (other cells, shared
+ * variables), MEMORY. */
+fg_status fg__tecplot_open(fg__dataset *dataset, fg_context *context,
+                           const fg__source *source);
 
 /* file.c. Whether bytes are text, but no markup. */
 bool fg__is_table(const unsigned char *bytes, size_t size);

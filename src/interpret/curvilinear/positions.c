@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "interpret/curvilinear/curvilinear.h"
+#include "terms/units.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,13 +44,6 @@ static fg_status read_line(double *out, const fg__dataset *data,
   return status;
 }
 
-static double degrees_of(const fg__variable *v)
-{
-  char units[FG__TEXT_BYTES];
-  fg__attribute_text(v, "units", units, sizeof units);
-  return strncmp(units, "rad", 3) == 0 ? 1.0 / FG__RADIANS : 1.0;
-}
-
 static fg_status read_coordinate(double **out, const fg__dataset *data,
                                  const fg__curvilinear_part *part, const fg__variable *v,
                                  size_t time)
@@ -58,13 +52,9 @@ static fg_status read_coordinate(double **out, const fg__dataset *data,
   *out = fg__allocate(count, sizeof **out);
   if (!*out)
     return fg__fail_memory(data->context, "a coordinate", count * sizeof **out);
-  const fg_status status = v->rank == 1 ? read_line(*out, data, part, v)
-                                        : fg__read_doubles(*out, data, v, &part->grid,
-                                                           part->variable, time, 0);
-  const double factor = degrees_of(v);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK && factor != 1.0; ++n)
-    (*out)[n] *= factor;
-  return status;
+  return v->rank == 1
+             ? read_line(*out, data, part, v)
+             : fg__read_doubles(*out, data, v, &part->grid, part->variable, time, 0);
 }
 
 static bool are_same(const fg__positions *at, size_t a, size_t b)
@@ -110,6 +100,9 @@ fg_status fg__positions_read(fg__positions *out, const fg__dataset *data,
   fg_status status = read_coordinate(&out->longitude, data, part, part->longitude, time);
   if (status == FG_STATUS_OK)
     status = read_coordinate(&out->latitude, data, part, part->latitude, time);
+  if (status == FG_STATUS_OK)
+    status = fg__check_degrees(data->context, part->longitude->path, out->longitude,
+                               out->latitude, count_of(part));
   return status == FG_STATUS_OK
              ? leave_out_repeated(out, data->context, part->grid.axis[0].size,
                                   part->grid.axis[1].size)

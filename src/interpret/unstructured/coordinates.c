@@ -154,7 +154,7 @@ static bool find_positions(const fg__variable *out[2], const fg__mesh_search *se
       const fg__variable *v = &search->data->variables[n];
       if (!lies_along(search, v, rank) || (named && !strstr(names, v->plain_name)))
         continue;
-      const fg__role role = fg__angle_role(v);
+      const fg__role role = v->geographic;
       if (role != FG__NO_ROLE && !out[role])
         out[role] = v;
     }

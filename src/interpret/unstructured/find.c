@@ -22,27 +22,11 @@ bool fg__same_dimension(const fg__dataset *data, int a, int b)
   return a == b || (of[a].file != of[b].file && of[a].length == of[b].length);
 }
 
-fg__role fg__angle_role(const fg__variable *v)
-{
-  char text[FG__TEXT_BYTES];
-  const fg__role role = v->geographic;
-  fg__attribute_text(v, "units", text, sizeof text);
-  if (role != FG__NO_ROLE || strncmp(text, "rad", 3) != 0)
-    return role;
-  fg__attribute_text(v, "standard_name", text, sizeof text);
-  if (strcmp(text, "longitude") == 0 || strcmp(text, "latitude") == 0)
-    return strcmp(text, "longitude") == 0 ? FG__ROLE_X : FG__ROLE_Y;
-  if (strstr(v->plain_name, "lon") || strstr(v->plain_name, "Lon"))
-    return FG__ROLE_X;
-  return strstr(v->plain_name, "lat") || strstr(v->plain_name, "Lat") ? FG__ROLE_Y
-                                                                      : FG__NO_ROLE;
-}
-
 /* Whether y is the first of two coordinates. */
 static bool is_turned(const fg__variable *first, const fg__variable *second)
 {
-  if (fg__angle_role(first) != FG__NO_ROLE)
-    return fg__angle_role(first) == FG__ROLE_Y;
+  if (first->geographic != FG__NO_ROLE)
+    return first->geographic == FG__ROLE_Y;
   char text[FG__TEXT_BYTES];
   fg__attribute_text(second, "standard_name", text, sizeof text);
   return strcmp(text, "projection_x_coordinate") == 0;

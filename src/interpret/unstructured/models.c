@@ -149,7 +149,7 @@ static bool find_positions(fg__unstructured *out, fg__mesh_search *search,
     if (!known->centre[n][0] ||
         !pair_named(out->centre, data, known->centre[n][0], known->centre[n][1]))
       out->centre[0] = out->centre[1] = NULL;
-    out->in_plane = fg__angle_role(out->node[0]) == FG__NO_ROLE && n > 0;
+    out->in_plane = out->node[0]->geographic == FG__NO_ROLE && n > 0;
     return true;
   }
   return false;

@@ -23,8 +23,8 @@ static bool lies_along(const fg__mesh_search *search, const fg__variable *v, int
 static bool is_component(const fg__mesh_search *search, const fg__variable *v)
 {
   const fg__pair *pair = search->pair;
-  return v == search->u || (pair && (v == pair->component[0] || v == pair->component[1] ||
-                                     v == pair->component[2]));
+  return pair &&
+         (v == pair->component[0] || v == pair->component[1] || v == pair->component[2]);
 }
 
 static const fg__variable *find_named(const fg__mesh_search *search, fg__column_use use,

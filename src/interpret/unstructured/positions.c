@@ -1,17 +1,15 @@
 /* Positions of the points, nodes or faces of a mesh. */
+#include "base/angle.h"
 #include "base/memory.h"
 #include "interpret/unstructured/unstructured.h"
 
-#include <string.h>
-
-static const double DEGREES_PER_RADIAN = 57.29577951308232;
 
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
 {
-  char units[FG__TEXT_BYTES];
-  if (!fg__attribute_text(v, "units", units, sizeof units) || !units[0])
-    return mesh->in_radians ? DEGREES_PER_RADIAN : 1.0;
-  return strncmp(units, "rad", 3) == 0 ? DEGREES_PER_RADIAN : 1.0;
+  const fg__attribute *units = fg__attribute_find(v, "units");
+  return mesh->in_radians && !(units && units->text && units->text[0])
+             ? 1.0 / FG__RADIANS
+             : fg__degrees_per_unit(v);
 }
 
 fg_status fg__positions_of(double *out[], const fg__dataset *data,
@@ -32,9 +30,11 @@ fg_status fg__positions_of(double *out[], const fg__dataset *data,
     const fg_status status = fg__read_all(out[k], data, at[k]);
     if (status != FG_STATUS_OK)
       return status;
-    const double factor = mesh->in_plane ? 1.0 : fg__degrees_in(mesh, at[k]);
-    for (size_t n = 0; n < count && factor > 1.0; ++n)
+    const double factor = fg__degrees_in(mesh, at[k]) / fg__degrees_per_unit(at[k]);
+    for (size_t n = 0; n < count && factor > 1.0 && !mesh->in_plane; ++n)
       out[k][n] *= factor;
   }
-  return FG_STATUS_OK;
+  return mesh->in_plane
+             ? FG_STATUS_OK
+             : fg__check_degrees(data->context, at[0]->path, out[0], out[1], count);
 }

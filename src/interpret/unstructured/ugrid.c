@@ -68,11 +68,27 @@ static bool lies_along(const fg__mesh_search *search, int dimension)
 static void settle(fg__unstructured *out, const fg__variable *topology, const char *where)
 {
   const fg__variable *at = out->node[0];
-  out->in_plane = fg__angle_role(at) == FG__NO_ROLE;
+  out->in_plane = at->geographic == FG__NO_ROLE;
   snprintf(out->rule, sizeof out->rule,
            "%s, on the %s of the mesh '%.100s' (cf_role mesh_topology)",
-           out->in_plane ? "along x and y" : "east and north", where,
-           topology->plain_name);
+           out->in_plane  ? "along x and y"
+           : out->turn[0] ? "along its rows, turned to east and north"
+                          : "east and north",
+           where, topology->plain_name);
+}
+
+/* Rows about a pole of their own: vectors may be along these, and rows may close round a
+ * pole that they do not reach. */
+static void find_rows(fg__unstructured *out, const fg__mesh_search *search,
+                      const fg__variable *topology)
+{
+  double relative = 0.0, poles = 0.0;
+  fg__attribute_numbers(search->u, "GRIB_uvRelativeToGrid", &relative, 1);
+  if (!(relative > 0.0) || (search->pair && search->pair->polar.sense != 0) ||
+      !positions_by(out->turn, search->data, topology, "node_rotation"))
+    out->turn[0] = out->turn[1] = NULL;
+  fg__attribute_numbers(topology, "pole_nodes", &poles, 1);
+  out->poles = poles > 0.0 ? (size_t)poles : 0;
 }
 
 /* Vectors on edges: their middles are points, where the file has them. */
@@ -124,6 +140,7 @@ static bool find_on(fg__unstructured *out, fg__mesh_search *search,
   }
   if (lies_along(search, out->node[0]->dimension[0])) {
     out->location = FG__MESH_ON_NODES;
+    find_rows(out, search, topology);
     settle(out, topology, "nodes");
     return true;
   }

@@ -35,6 +35,10 @@ struct fg__unstructured {
   const fg__variable *bounds[2];    /* [faces][corners], instead of nodes */
   const fg__variable *wet, *pixel;  /* NULL: none */
   bool wet_is_zero;                 /* the mask is 1 on land */
+  const fg__variable *turn[2];      /* cosine and sine of the angle from east to x of
+                                       vectors along the mesh's rows; NULL: east */
+  size_t poles;                     /* so many nodes, the last, are poles without a value
+                                       that faces go round */
   long sides;                       /* HEALPix: N_side; 0: it is none */
   bool nested;                      /* its order */
   bool in_plane;                    /* positions are no longitudes and latitudes */
@@ -112,9 +116,6 @@ bool fg__find_coordinates(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_places(fg__unstructured *out, fg__mesh_search *search);
 
-/* Longitude (X), latitude (Y) or neither, in degrees or radians. */
-fg__role fg__angle_role(const fg__variable *v);
-
 /* Whether two dimensions are one: of two files those of one length. */
 bool fg__same_dimension(const fg__dataset *data, int a, int b);
 
@@ -123,7 +124,7 @@ bool fg__same_dimension(const fg__dataset *data, int a, int b);
 bool fg__named_positions(const fg__variable *out[2], const fg__dataset *data,
                          const char *names);
 
-/* Degrees in a unit of positions. */
+/* Degrees in a unit of positions as they are stored. */
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v);
 
 /* Positions of two or three coordinates, in degrees or the plane's units. */

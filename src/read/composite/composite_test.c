@@ -221,6 +221,64 @@ static void a_collection_has_times(void **state)
   fg_inventory_destroy(inventory);
 }
 
+/* ParaView's list, of files of any kind; without times these are the places in it. */
+static void a_series_has_times(void **state)
+{
+  static const char legacy[] =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 2 "
+      "1\n"
+      "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 6\nVECTORS v float\n"
+      "7 1 0 7 1 0 7 1 0 7 1 0 7 1 0 7 1 0\n";
+  static const char *const words[] = {"t = -1", "t = 0.5", "t = 2.5"};
+  static const struct {
+    const char *text, *part;
+  } wrong[] = {
+      {"{\"file-series-version\": 1", "is not JSON"},
+      {"{\"file-series-version\": 1}", "no list \"files\""},
+      {"{\"file-series-version\": 1, \"files\": [{\"time\": 1}]}", "has no name"},
+      {"{\"file-series-version\": 1, \"files\": [{\"name\": \"a.vti\", \"time\": "
+       "\"x\"}]}",
+       "no number as its time"},
+      {"{\"file-series-version\": 1, \"files\": []}", "names no file"},
+      {"{\"file-series-version\": 1, \"files\": [{\"name\": \"../a.vti\"}]}",
+       "not in its folder"},
+      {"{\"file-series-version\": 1, \"files\": [{\"name\": \"it.series\"}]}",
+       "named twice"}};
+  folder *f = *state;
+  store_image(f, "a.vti", 0, 4, 3.0);
+  store_image(f, "b.vti", 0, 4, 1.0);
+  store_words(f, "c.vtk", legacy);
+  store_words(f, "it.series",
+              " {\"file-series-version\": \"1.0\", \"files\": [\n"
+              "{\"name\": \"a.vti\", \"time\": 2.5}, {\"name\": \"b.vti\", \"time\": -1},"
+              "{\"name\": \"c.vtk\", \"time\": 0.5}]}\n");
+  for (int t = 0; t < 3; ++t) {
+    fg_field *field = read_as(f, "it.series", &(fg_read_options){.time = t});
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_string_equal(a->time, words[t]);
+    if (t == 1)
+      assert_true(a->velocity[0][0] == 7.0f);
+    else
+      assert_image(field, 1.0 + t);
+    fg_field_destroy(field);
+  }
+  refused(f, "it.series", &(fg_read_options){.time = 3}, FG_STATUS_ARGUMENT,
+          "there are 3");
+  for (size_t n = 0; n < sizeof wrong / sizeof *wrong; ++n) {
+    store_words(f, "it.series", wrong[n].text);
+    const bool elsewhere = strstr(wrong[n].text, "../") != NULL;
+    refused(f, "it.series", NULL,
+            elsewhere ? FG_STATUS_UNSUPPORTED : FG_STATUS_FILE_FORMAT, wrong[n].part);
+  }
+  store_words(f, "it.series",
+              "{\"file-series-version\": \"1.0\", \"files\": [{\"name\": \"b.vti\"}, "
+              "{\"name\": \"a.vti\"}]}");
+  fg_field *field = read_as(f, "it.series", &(fg_read_options){.time = 1});
+  assert_image(field, 3.0);
+  assert_string_equal(fg_field_contents(field)->time, "t = 1");
+  fg_field_destroy(field);
+}
+
 /* An image beside cells: all together, each by its name, and one without the vectors. */
 static void blocks_are_merged_or_chosen(void **state)
 {
@@ -275,8 +333,11 @@ static void blocks_are_merged_or_chosen(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(pieces_of_an_image_are_one),          CASE(files_elsewhere_are_not_opened),
-      CASE(links_do_not_lead_out_of_the_folder), CASE(a_collection_has_times),
+      CASE(pieces_of_an_image_are_one),
+      CASE(files_elsewhere_are_not_opened),
+      CASE(links_do_not_lead_out_of_the_folder),
+      CASE(a_collection_has_times),
+      CASE(a_series_has_times),
       CASE(blocks_are_merged_or_chosen),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* In builds without NetCDF or VTK: Exodus files are NetCDF files like others. */
+/* In builds without NetCDF: Exodus files are NetCDF files like others. */
 #include "read/format.h"
 
 static bool is_mine(const unsigned char *bytes, size_t size)
@@ -8,5 +8,7 @@ static bool is_mine(const unsigned char *bytes, size_t size)
   return false;
 }
 
-const fg__format fg__format_exodus = {
-    .name = "Exodus", .is_absent = true, .feature = FG_FEATURE_VTK, .is_mine = is_mine};
+const fg__format fg__format_exodus = {.name = "Exodus",
+                                      .is_absent = true,
+                                      .feature = FG_FEATURE_NETCDF,
+                                      .is_mine = is_mine};

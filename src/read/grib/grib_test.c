@@ -1,5 +1,5 @@
 #include "decode/signature.h"
-#include "read/grib/sample.h"
+#include "read/grib/grib_example.h"
 
 static const char U[] = "indicatorOfParameter=33,table2Version=2",
                   V[] = "indicatorOfParameter=34,table2Version=2",
@@ -185,42 +185,41 @@ static void projected_grids(void **state)
   } cases[] = {
       {north_cone,
        "bitsPerValue=20",
-       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +R=6371229 +units=m +no_defs",
+       "+proj=lcc +lat_0=45 +lon_0=10 +lat_1=40 +lat_2=50 +R=6371229 +units=m",
        {-1961707.198, -1436429.762},
        false},
       {north_cone,
        "bitsPerValue=20,shapeOfTheEarth=5",
-       "+proj=lcc +lat_1=40 +lat_2=50 +lat_0=45 +lon_0=10 +a=6378137 +b=6356752.314 "
-       "+units=m +no_defs",
+       "+proj=lcc +lat_0=45 +lon_0=10 +lat_1=40 +lat_2=50 +a=6378137 +b=6356752.314 "
+       "+units=m",
        {-1965226.721, -1432748.077},
        true},
       {"gridType=lambert,latitudeOfFirstGridPointInDegrees=-50,"
        "longitudeOfFirstGridPointInDegrees=130,LoVInDegrees=140,LaDInDegrees=-40,"
        "Latin1InDegrees=-40,Latin2InDegrees=-40,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=lcc +lat_1=-40 +lat_2=-40 +lat_0=-40 +lon_0=140 +R=6371229 +units=m "
-       "+no_defs",
+       "+proj=lcc +lat_0=-40 +lon_0=140 +lat_1=-40 +lat_2=-40 +R=6371229 +units=m",
        {-724894.688, -1158614.926},
        true},
       {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=60,"
        "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=340,"
        "LaDInDegrees=60,southPoleOnProjectionPlane=0,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=stere +lat_0=90 +lat_ts=60 +lon_0=340 +R=6371229 +units=m +no_defs",
+       "+proj=stere +lat_0=90 +lon_0=340 +lat_ts=60 +R=6371229 +units=m",
        {-2047673.53, -2440322.286},
        false},
       {"gridType=polar_stereographic,latitudeOfFirstGridPointInDegrees=-60,"
        "longitudeOfFirstGridPointInDegrees=300,orientationOfTheGridInDegrees=0,"
        "LaDInDegrees=-60,southPoleOnProjectionPlane=1,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=stere +lat_0=-90 +lat_ts=-60 +lon_0=0 +R=6371229 +units=m +no_defs",
+       "+proj=stere +lat_0=-90 +lon_0=0 +lat_ts=-60 +R=6371229 +units=m",
        {-2758823.084, 1592807.25},
        false},
       {"gridType=mercator,latitudeOfFirstGridPointInDegrees=-10,"
        "longitudeOfFirstGridPointInDegrees=350,LaDInDegrees=20,"
        "orientationOfTheGridInDegrees=0,shapeOfTheEarth=6",
        "bitsPerValue=20",
-       "+proj=merc +lat_ts=20 +lon_0=-0.4",
+       "+proj=merc +lon_0=-0.4",
        {-1000000.0, -1050273.894},
        false},
   };
@@ -289,9 +288,10 @@ static void times_and_levels(void **state)
   grib_refuse(f, NULL, FG_STATUS_ARGUMENT, "u,v; 10u,10v");
   grib_refuse(f, &(fg_read_options){.vars = "u,v"}, FG_STATUS_ARGUMENT,
               "at time 0 (2014-01-31 06:00) and level 0 (300 hPa)");
-  grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT, "'u,w'");
+  grib_refuse(f, &(fg_read_options){.vars = "u,w"}, FG_STATUS_ARGUMENT,
+              "has no variable 'w'");
   grib_refuse(f, &(fg_read_options){.vars = "u"}, FG_STATUS_ARGUMENT,
-              "'u' is one field, and a velocity has two components");
+              "'u' is one variable, and a velocity has two or three components");
   fg_field *field = grib_read(f, &(fg_read_options){.vars = "u,v", .time = 1});
   assert_string_equal(fg_field_contents(field)->level, "300 hPa");
   assert_string_equal(fg_field_contents(field)->time, "2014-02-01 06:00");
@@ -299,6 +299,50 @@ static void times_and_levels(void **state)
   field = grib_read(f, &(fg_read_options){.vars = "u10,v10"});
   assert_string_equal(fg_field_contents(field)->velocity_name[0], "10u");
   assert_string_equal(fg_field_contents(field)->velocity_units, "m/s");
+  fg_field_destroy(field);
+}
+
+/* Two forecasts of one time are told apart by when they began. */
+static void forecasts_of_one_time(void **state)
+{
+  static const char *const starts[] = {"dataDate=20140131,endStep=36",
+                                       "dataDate=20140201,endStep=12"};
+  grib_file *f = *state;
+  fg_inventory *inventory = NULL;
+  for (int k = 1; k >= 0; --k)
+    grib_add(f, "regular_ll_pl_grib2", starts[k], 0, "bitsPerValue=16", WIND_U, WIND_V,
+             NULL);
+  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  assert_int_equal(vector->times, 2);
+  assert_string_equal(vector->time_value[0].words, "2014-02-02 from 2014-01-31 12:00");
+  assert_string_equal(vector->time_value[1].words, "2014-02-02 from 2014-02-01 12:00");
+  fg_inventory_destroy(inventory);
+  fg_field *field = grib_read(f, &(fg_read_options){.time = 1});
+  assert_string_equal(fg_field_contents(field)->time, "2014-02-02 from 2014-02-01 12:00");
+  fg_field_destroy(field);
+}
+
+/* Members of an ensemble are along a dimension of their own. */
+static void one_member_is_read(void **state)
+{
+  grib_file *f = *state;
+  for (int k = 1; k <= 3; ++k) {
+    char member[128];
+    snprintf(member, sizeof member,
+             "productDefinitionTemplateNumber=1,numberOfForecastsInEnsemble=3,"
+             "perturbationNumber=%d,bitmapPresent=%d",
+             4 - k, k == 2);
+    grib_add(f, "regular_ll_pl_grib2", member, 0, "bitsPerValue=16", WIND_U, WIND_V,
+             NULL);
+  }
+  grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED,
+              "dimension 'number' of 3 samples is neither time nor level");
+  assert_string_equal(fg_context_hint(f->context),
+                      "--at number=WHICH reads one of them: 1, 2, 3");
+  fg_field *field = grib_read(f, &(fg_read_options){.at = "number=2"});
+  assert_string_equal(fg_field_contents(field)->level, "850 hPa, number 2");
+  assert_int_equal(assert_flow(field, NULL, 1e-3), 0);
   fg_field_destroy(field);
 }
 
@@ -310,7 +354,7 @@ static void fields_without_a_pair_are_named(void **state)
     grib_add(f, "regular_ll_pl_grib2", k ? "dataTime=600" : "", 0, "bitsPerValue=16",
              WIND_U, w, NULL);
   grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED,
-              "no vectors found among its 2 kinds of fields: u, w");
+              "no vectors found among its 7 variables: u, w, longitude");
 }
 
 /* A heading of `size` bytes before the messages: bytes of `text` over and over. */
@@ -446,9 +490,9 @@ int main(void)
       CASE(a_longitude_latitude_grid), CASE(a_gaussian_grid),
       CASE(grids_on_the_sphere),       CASE(projected_grids),
       CASE(times_and_levels),          CASE(fields_without_a_pair_are_named),
-      CASE(times_and_levels),          CASE(headings_are_skipped),
-      CASE(times_and_levels),          CASE(what_only_names_grib_is_none),
+      CASE(headings_are_skipped),      CASE(what_only_names_grib_is_none),
       CASE(a_message_of_two_fields),   CASE(missing_values),
+      CASE(forecasts_of_one_time),     CASE(one_member_is_read),
   };
   return cmocka_run_group_tests_name("read/grib", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* Speed and direction of a wind in place of components: the flow is that of the same
  * places' components. */
-#include "read/grib/sample.h"
+#include "read/grib/grib_example.h"
 
 static const char SPEED[] = "parameterCategory=2,parameterNumber=1",
                   DIRECTION[] = "parameterCategory=2,parameterNumber=0";
@@ -98,6 +98,41 @@ static void edition_1_has_them_too(void **state)
   fg_field_destroy(field);
 }
 
+/* Heights of waves and the direction from which they come are a vector where they are
+ * asked for: of all waves, of those of the wind and of swell, in either order. */
+static void waves_are_read_by_their_names(void **state)
+{
+  static const struct {
+    const char *sample, *height, *direction, *level;
+  } cases[] = {{"regular_ll_sfc_grib2", "swh", "mwd", "height 0 m"},
+               {"regular_ll_sfc_grib1", "swh", "mwd", "surface"},
+               {"regular_ll_sfc_grib1", "shww", "mdww", "surface"},
+               {"reduced_gg_sfc_grib1", "shts", "mdts", "surface"}};
+  grib_file *f = *state;
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
+    char height[64], direction[64], vars[2][128];
+    unlink(f->path);
+    grib_add(f, cases[c].sample, "", 0, "bitsPerValue=24", "shortName=10u",
+             "shortName=10v", NULL);
+    fg_field *components = grib_read_whole(f, NULL);
+    unlink(f->path);
+    snprintf(height, sizeof height, "shortName=%s", cases[c].height);
+    snprintf(direction, sizeof direction, "shortName=%s", cases[c].direction);
+    add_polar(f, cases[c].sample, "", height, direction);
+    grib_refuse(f, NULL, FG_STATUS_UNSUPPORTED, "no vectors found");
+    snprintf(vars[0], sizeof vars[0], "%s,%s", cases[c].height, cases[c].direction);
+    snprintf(vars[1], sizeof vars[1], "%s,%s", cases[c].direction, cases[c].height);
+    for (int k = 0; k < 2; ++k) {
+      fg_field *field = grib_read_whole(f, &(fg_read_options){.vars = vars[k]});
+      assert_alike(field, components);
+      assert_string_equal(fg_field_contents(field)->velocity_units, "m");
+      assert_string_equal(fg_field_contents(field)->level, cases[c].level);
+      fg_field_destroy(field);
+    }
+    fg_field_destroy(components);
+  }
+}
+
 /* An inventory tells the rule; a file's components go first. */
 static void components_go_first(void **state)
 {
@@ -133,6 +168,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       CASE(they_are_read_as_components),
       CASE(edition_1_has_them_too),
+      CASE(waves_are_read_by_their_names),
       CASE(components_go_first),
   };
   return cmocka_run_group_tests_name("read/grib/polar", tests, NULL, NULL);

@@ -4,11 +4,12 @@
 #include <hdf5.h>
 #include <stdlib.h>
 
+#include "flowgrain/inventory.h"
 #include "read/netcdf/sample.h"
 
 enum { NX = 5, NY = 4, NT = 3, MOST = 6, MOST_NUMBERS = 100 };
 
-typedef enum quantity { X, Y, T, U, V, WRONG } quantity;
+typedef enum quantity { X, Y, Z, T, U, V, W, WRONG } quantity;
 
 /* An array along axes by their letters, the last fastest. */
 typedef struct array {
@@ -18,7 +19,11 @@ typedef struct array {
 
 static int length_of(char axis, bool square)
 {
-  return axis == 'x' ? NX : axis == 'y' ? (square ? NX : NY) : axis == 't' ? NT : NX + 1;
+  return axis == 'l'   ? 2
+         : axis == 'x' ? NX
+         : axis == 'y' ? (square ? NX : NY)
+         : axis == 't' ? NT
+                       : NX + 1;
 }
 
 static double x_at(int i)
@@ -31,11 +36,17 @@ static double y_at(int j)
   return 3.0 + 0.5 * j;
 }
 
-static double value_of(quantity what, double x, double y, int t)
+/* `n`: of time, and of layer. */
+static double value_of(quantity what, double x, double y, int n)
 {
-  const double values[] = {
-      [X] = x,     [Y] = y,      [T] = 10.0 * t, [U] = x + 8.0 * y + 64.0 * t,
-      [V] = x - y, [WRONG] = 0.0};
+  const double values[] = {[X] = x,
+                           [Y] = y,
+                           [Z] = 0.25 * n,
+                           [T] = 10.0 * n,
+                           [U] = x + 8.0 * y + 64.0 * n,
+                           [V] = x - y,
+                           [W] = 0.0,
+                           [WRONG] = 0.0};
   return values[what];
 }
 
@@ -55,7 +66,7 @@ static void write_array(hid_t file, const array *a, bool square)
       at[(int)a->axes[k]] = rest % (int)length[k];
       rest /= (int)length[k];
     }
-    out[n] = value_of(a->what, x_at(at['x']), y_at(at['y']), at['t']);
+    out[n] = value_of(a->what, x_at(at['x']), y_at(at['y']), at['t'] + at['l']);
   }
   const hid_t space = H5Screate_simple(rank, length, NULL);
   const hid_t set = H5Dcreate2(file, a->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
@@ -140,11 +151,73 @@ static void coordinates_that_do_not_fit_are_refused(void **state)
   }
 }
 
+/* Two levels of one flow are a plane, of another a volume. */
+static void two_layers_of_one_flow_are_a_plane(void **state)
+{
+  static const struct {
+    array arrays[MOST];
+    int dimension;
+    const char *level;
+  } cases[] = {
+      {{{"u", "lyx", V},
+        {"v", "lyx", X},
+        {"w", "lyx", W},
+        {"x", "x", X},
+        {"y", "y", Y},
+        {"z", "l", Z}},
+       2,
+       "z = 0 and 0.25"},
+      {{{"u", "xly", W},
+        {"v", "xly", V},
+        {"w", "xly", X},
+        {"x", "y", Y},
+        {"y", "l", Z},
+        {"z", "x", X}},
+       2,
+       "y = 0 and 0.25"},
+      {{{"u", "lyx", U},
+        {"v", "lyx", X},
+        {"w", "lyx", W},
+        {"x", "x", X},
+        {"y", "y", Y},
+        {"z", "l", Z}},
+       3,
+       NULL},
+  };
+  sample_file *f = *state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    fg_field *field = NULL;
+    fg_inventory *inventory = NULL;
+    write_file(f, cases[i].arrays, false);
+    if (fg_field_read(&field, f->context, f->path, NULL))
+      fail_msg("%zu: %s", i, fg_context_message(f->context));
+    const fg_field_arrays *a = fg_field_contents(field);
+    assert_int_equal(a->dimension, cases[i].dimension);
+    assert_true(!cases[i].level || strcmp(a->level, cases[i].level) == 0);
+    assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
+    assert_int_equal(fg_inventory_vector_at(inventory, 0)->dimension, cases[i].dimension);
+    fg_inventory_destroy(inventory);
+    for (int n = 0; n < NX * NY && i == 0; ++n) {
+      assert_true(a->velocity[0][n] == (float)(x_at(n % NX) - y_at(n / NX)));
+      assert_true(a->velocity[1][n] == (float)x_at(n % NX));
+    }
+    for (int n = 0; n < NX * NY && i == 1; ++n) { /* x and z of the file */
+      assert_true(a->velocity[0][n] == 0.0f);
+      assert_true(a->velocity[1][n] == (float)x_at(n / NY));
+    }
+    fg_field_destroy(field);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(coordinates_name_dimensions, sample_set_up, sample_tear_down),
-      cmocka_unit_test_setup_teardown(coordinates_that_do_not_fit_are_refused, sample_set_up, sample_tear_down),
+      cmocka_unit_test_setup_teardown(coordinates_name_dimensions, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(two_layers_of_one_flow_are_a_plane, sample_set_up,
+                                      sample_tear_down),
+      cmocka_unit_test_setup_teardown(coordinates_that_do_not_fit_are_refused,
+                                      sample_set_up, sample_tear_down),
   };
   return cmocka_run_group_tests_name("read/netcdf/nameless", tests, NULL, NULL);
 }

@@ -8,7 +8,8 @@ static bool is_netcdf(const unsigned char *bytes, size_t size)
   return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
 }
 
-static const fg__dataset_format FORMAT = {"NetCDF", is_netcdf, fg__nc_open};
+static const fg__dataset_format FORMAT = {
+    .name = "NetCDF", .is_mine = is_netcdf, .open = fg__nc_open};
 
 FG__DATASET_HOOKS(FORMAT)
 

@@ -8,7 +8,8 @@ static bool is_either(const unsigned char *bytes, size_t size)
   return fg__is_npy(bytes, size) || fg__is_npz(bytes, size);
 }
 
-static const fg__dataset_format FORMAT = {"NumPy", is_either, fg__numpy_open};
+static const fg__dataset_format FORMAT = {
+    .name = "NumPy", .is_mine = is_either, .open = fg__numpy_open};
 
 FG__DATASET_HOOKS(FORMAT)
 

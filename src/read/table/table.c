@@ -3,7 +3,8 @@
 
 #include "read/dataset.h"
 
-static const fg__dataset_format FORMAT = {"table", fg__is_table, fg__table_open};
+static const fg__dataset_format FORMAT = {
+    .name = "table", .is_mine = fg__is_table, .open = fg__table_open};
 
 FG__DATASET_HOOKS(FORMAT)
 

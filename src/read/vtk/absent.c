@@ -12,6 +12,11 @@ const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
                                           .feature = FG_FEATURE_VTK,
                                           .is_mine = fg__is_vtk_legacy};
 
+const fg__format fg__format_vtk_series = {.name = "VTK series",
+                                          .is_absent = true,
+                                          .feature = FG_FEATURE_VTK,
+                                          .is_mine = fg__is_vtk_series};
+
 fg_status fg__density_file_read(fg__density_file *out, fg_context *context,
                                 const fg__source *source, const fg_field_arrays *field)
 {

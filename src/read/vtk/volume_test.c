@@ -220,7 +220,7 @@ static void several_volumes_of_vectors_are_ambiguous(void **state)
                                    SCALAR("ax", TWENTYSEVEN) SCALAR("ay", TWENTYSEVEN)));
   assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_ARGUMENT);
   assert_non_null(strstr(fg_context_message(*state), "2 vectors"));
-  assert_non_null(strstr(fg_context_message(*state), "cx,cy,cz | bx,by,bz"));
+  assert_non_null(strstr(fg_context_message(*state), "cx,cy,cz; bx,by,bz"));
 }
 
 /* Two layers of points are a plane with a mean, as ever. */

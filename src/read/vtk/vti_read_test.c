@@ -211,22 +211,21 @@ static void the_vector_is_found(void **state)
 static void what_cannot_be_chosen_is_explained(void **state)
 {
   const char *two = POINTS(VECTOR("first", SIX) VECTOR("second", SIX));
-  assert_not_chosen(*state, two, NULL, FG_STATUS_ARGUMENT, "first | second");
+  assert_not_chosen(*state, two, NULL, FG_STATUS_ARGUMENT, "first; second");
   assert_not_chosen(*state, two, NULL, FG_STATUS_ARGUMENT, "--vars first");
-  assert_not_chosen(*state, two, "third", FG_STATUS_ARGUMENT, "first, second");
-  assert_not_chosen(*state, two, "", FG_STATUS_ARGUMENT, "first, second");
+  assert_not_chosen(*state, two, "third", FG_STATUS_ARGUMENT, "first; second");
+  assert_not_chosen(*state, two, "", FG_STATUS_ARGUMENT, "first; second");
   assert_not_chosen(*state, two, "first,second", FG_STATUS_ARGUMENT, "3 components");
   assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), NULL, FG_STATUS_UNSUPPORTED,
-                    "no vectors; its variables: p");
-  assert_not_chosen(*state, "", NULL, FG_STATUS_UNSUPPORTED, "none");
+                    "no vectors found among its 1 variable: p");
+  assert_not_chosen(*state, "", NULL, FG_STATUS_UNSUPPORTED, "0 variables");
   assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p", FG_STATUS_ARGUMENT,
-                    "1 component");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p,q", FG_STATUS_ARGUMENT,
-                    "\"q\"");
+                    "is one variable");
+  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p,q", FG_STATUS_ARGUMENT, "'q'");
   assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p,p,p,p", FG_STATUS_ARGUMENT,
-                    "three");
+                    "two or three names");
   assert_not_chosen(*state, POINTS(SCALAR("p", ONES)) CELLS(SCALAR("q", "1 1")), "p,q",
-                    FG_STATUS_ARGUMENT, "points and cells");
+                    FG_STATUS_UNSUPPORTED, "points and cells");
   assert_not_chosen(*state, POINTS(SCALAR("U", ONES) VECTOR("U", SIX)), NULL,
                     FG_STATUS_FILE_FORMAT, "two arrays");
 }

@@ -59,29 +59,6 @@ fg_status fg__cell_set_add_points(fg__cell_set *set, fg__cell_shape shape,
   return FG_STATUS_OK;
 }
 
-fg_status fg__cell_set_resolve(int *out, const fg__cell_set *set, const double *node,
-                               size_t nodes, const fg__cell_points *points, int number)
-{
-  for (size_t i = 0; i < nodes; ++i) {
-    if (!(node[i] >= 0.0 && node[i] < (double)points->count))
-      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                      "%s: corner %zu of cell %d is point %g of %zu", set->path, i,
-                      number, node[i], points->count);
-    out[i] = (int)(points->first + (size_t)node[i]);
-  }
-  return FG_STATUS_OK;
-}
-
-fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
-                           const fg__cell_points *points, int number)
-{
-  int point[FG__CELL_CORNERS];
-  const size_t corners = (size_t)fg__cell_corners(shape);
-  fg_status status = fg__cell_set_resolve(point, set, corner, corners, points, number);
-  return status == FG_STATUS_OK ? fg__cell_set_add_points(set, shape, point, number)
-                                : status;
-}
-
 const double *fg__cell_set_corner(const fg__cell_set *set, size_t cell, int corner)
 {
   return set->position + 3 * (size_t)set->corner[set->first[cell] + (size_t)corner];

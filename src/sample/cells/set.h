@@ -5,6 +5,7 @@
 #define FG__CELL_SET_H
 
 #include "base/context.h"
+#include "field/cell_types.h"
 #include "field/plane.h"
 
 enum { FG__CELL_CORNERS = 8 };
@@ -67,50 +68,25 @@ typedef struct fg__cell_set {
 
 void fg__cell_set_clear(fg__cell_set *set);
 
-/* What to do about cells that cannot be read. */
-#define FG__CELL_RESAMPLE                                                                \
-  "resample it to an image, with ParaView's filter Resample To Image or "                \
-  "vtkResampleToImage, and save that as .vti"
-
 /* Where a cell's corner is: x, y, z. */
 const double *fg__cell_set_corner(const fg__cell_set *set, size_t cell, int corner);
 
 int fg__cell_dimension(fg__cell_shape shape);
 int fg__cell_corners(fg__cell_shape shape);
 
-/* Points of one piece of a file: `count` from `first` on. */
-typedef struct fg__cell_points {
-  size_t first, count;
-} fg__cell_points;
-
-/* Adds a cell, number `number` of the file's; its corners count from the piece's first
- * point on. UNSUPPORTED (more than INT_MAX corners), FILE_FORMAT (a corner that is no
- * point), MEMORY. */
-fg_status fg__cell_set_add(fg__cell_set *set, fg__cell_shape shape, const double *corner,
-                           const fg__cell_points *points, int number);
-
-/* Adds a cell of a type of VTK's (vtkCellType.h) by its points, which are numbered as VTK
- * numbers them: linear cells as they are, strips, prisms and convex polygons in parts,
- * quadratic ones as linear cells between all their points and middles; vertices and lines
- * are left out. UNSUPPORTED (other types, polygons that are not convex), else as above.
- */
-fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
-                              size_t nodes, const fg__cell_points *points, int number);
-
-/* Adds a polyhedron: between its faces and the mean of its points lie pyramids, which are
- * added as tetrahedra; so it should be convex. `face`: how many faces, and of each how
- * many points and which, `numbers` in all. FILE_FORMAT, else as above. */
-fg_status fg__cell_set_add_polyhedron(fg__cell_set *set, const double *node, size_t nodes,
-                                      const double *face, size_t numbers,
-                                      const fg__cell_points *points, int number);
-
-/* The points' places in `position` of a cell's nodes. FILE_FORMAT (no such point). */
-fg_status fg__cell_set_resolve(int *out, const fg__cell_set *set, const double *node,
-                               size_t nodes, const fg__cell_points *points, int number);
-
-/* The same as fg__cell_set_add with such places for corners. */
+/* Adds a cell, number `number` of the file's, by its points. UNSUPPORTED (more than
+ * INT_MAX corners), MEMORY. */
 fg_status fg__cell_set_add_points(fg__cell_set *set, fg__cell_shape shape,
                                   const int *point, int number);
+
+/* Adds a cell of a type of VTK's (vtkCellType.h) as fg__topology has it: linear cells as
+ * they are, strips, prisms and convex polygons in parts, quadratic ones as linear cells
+ * between all their points and middles, a polyhedron as tetrahedra between its faces and
+ * the mean of its points, so that it should be convex; vertices and lines are left out.
+ * UNSUPPORTED (other types, polygons that are not convex), FILE_FORMAT (another number of
+ * points than the type has), else as above. */
+fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const int *corner,
+                              size_t count, int number);
 
 /* How many of the file's cells there are in it, whole or in parts. */
 size_t fg__cell_set_count(const fg__cell_set *set);

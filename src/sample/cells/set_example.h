@@ -27,11 +27,7 @@ static inline fg__cell_set set_of(fg_context *context, const double *position,
 
 static inline void add(fg__cell_set *set, fg__cell_shape shape, const int *corner)
 {
-  double numbers[FG__CELL_CORNERS];
-  for (int i = 0; i < fg__cell_corners(shape); ++i)
-    numbers[i] = corner[i];
-  const fg__cell_points all = {0, set->points};
-  assert_int_equal(fg__cell_set_add(set, shape, numbers, &all, (int)set->numbers++),
+  assert_int_equal(fg__cell_set_add_points(set, shape, corner, (int)set->numbers++),
                    FG_STATUS_OK);
 }
 

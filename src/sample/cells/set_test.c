@@ -193,21 +193,6 @@ static void sets_that_fill_nothing_are_refused(void **state)
   refuse(&set, FG_STATUS_FILE_FORMAT, "corner 1 of cell 0 is at");
 }
 
-static void corners_that_are_no_points_are_refused(void **state)
-{
-  static const double wrong[] = {-1.0, 5.0, 1e20, (double)NAN};
-  static const double position[15] = {0};
-  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-    fg__cell_set set = set_of(*state, position, 5);
-    const double corner[] = {0, 1, wrong[i]};
-    const fg__cell_points all = {0, 5};
-    assert_int_equal(fg__cell_set_add(&set, FG__CELL_TRIANGLE, corner, &all, 3),
-                     FG_STATUS_FILE_FORMAT);
-    assert_non_null(strstr(fg_context_message(*state), "corner 2 of cell 3"));
-    fg__cell_set_clear(&set);
-  }
-}
-
 /* A hundred cells that all fill the box would take a hundred times as long. */
 static void cells_over_each_other_are_refused(void **state)
 {
@@ -330,7 +315,6 @@ int main(void)
       cmocka_unit_test(planes_lie_across_any_axis),
       cmocka_unit_test(a_layer_is_the_plane_in_its_middle),
       cmocka_unit_test(sets_that_fill_nothing_are_refused),
-      cmocka_unit_test(corners_that_are_no_points_are_refused),
       cmocka_unit_test(cells_over_each_other_are_refused),
       cmocka_unit_test(cells_that_fill_nothing_are_left_out),
       cmocka_unit_test(the_raster_has_an_upper_limit),

@@ -3,11 +3,12 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "sample/cells/set.h"
 
-enum { MOST_NODES = 27, MOST_MIDDLES = 7, MOST_PARTS = 10 };
+enum { MOST_NODES = 27, MOST_MIDDLES = 7, MOST_PARTS = 10, LAGRANGE_HEXAHEDRON = 72 };
 
 typedef struct part {
   fg__cell_shape shape;
@@ -125,12 +126,18 @@ static const cell_type TYPES[] = {
     {37, "triquadratic pyramid", 0, 0, NULL, 0, NULL},
     {41, "convex point set", 0, 0, NULL, 0, NULL},
     {42, "polyhedron", 0, 0, NULL, 0, NULL},
-    {69, "Lagrange triangle", 0, 0, NULL, 0, NULL},
-    {70, "Lagrange quadrilateral", 0, 0, NULL, 0, NULL},
-    {71, "Lagrange tetrahedron", 0, 0, NULL, 0, NULL},
-    {72, "Lagrange hexahedron", 0, 0, NULL, 0, NULL},
-    {73, "Lagrange wedge", 0, 0, NULL, 0, NULL},
-    {74, "Lagrange pyramid", 0, 0, NULL, 0, NULL},
+    /* of orders 1 and 2, whose nodes are those of linear and quadratic cells */
+    {69, "Lagrange triangle", 3, PARTS(TRIANGLE), 0, NULL},
+    {69, "Lagrange triangle", 6, PARTS(TRIANGLE_6), 0, NULL},
+    {70, "Lagrange quadrilateral", 4, PARTS(QUAD), 0, NULL},
+    {70, "Lagrange quadrilateral", 9, PARTS(QUAD_9), 0, NULL},
+    {71, "Lagrange tetrahedron", 4, PARTS(TETRAHEDRON), 0, NULL},
+    {71, "Lagrange tetrahedron", 10, PARTS(TETRAHEDRON_10), 0, NULL},
+    {LAGRANGE_HEXAHEDRON, "Lagrange hexahedron", 8, PARTS(HEXAHEDRON), 0, NULL},
+    {LAGRANGE_HEXAHEDRON, "Lagrange hexahedron", 27, PARTS(HEXAHEDRON_27), 0, NULL},
+    {73, "Lagrange wedge", 6, PARTS(WEDGE), 0, NULL},
+    {73, "Lagrange wedge", 18, PARTS(WEDGE_18), 0, NULL},
+    {74, "Lagrange pyramid", 5, PARTS(PYRAMID), 0, NULL},
 };
 
 /* Vertices, lines, and lines of several corners or points. */
@@ -141,23 +148,25 @@ static bool is_line(int type)
 
 enum { STRIP = 6, POLYGON = 7 };
 
-static const cell_type *find(int type)
+/* The type with so many nodes, or else the first of that number. */
+static const cell_type *find(int type, size_t nodes)
 {
+  const cell_type *first = NULL;
   for (size_t i = 0; i < sizeof TYPES / sizeof TYPES[0]; ++i)
-    if (TYPES[i].number == type)
-      return &TYPES[i];
-  return NULL;
+    if (TYPES[i].number == type && (!first || (size_t)TYPES[i].nodes == nodes))
+      first = &TYPES[i];
+  return first;
 }
 
-static fg_status fail_type(const fg__cell_set *set, int type, int number)
+static fg_status fail_type(const fg__cell_set *set, int type, size_t nodes, int number)
 {
-  const cell_type *known = find(type);
-  fg__fail(
-      set->context, FG_STATUS_UNSUPPORTED,
-      "%s: cell %d is a %s (VTK's number %d); only linear and quadratic cells can be "
-      "read",
-      set->path, number, known ? known->name : "type that is not known", type);
-  fg__hint(set->context, "%s", FG__CELL_RESAMPLE);
+  const cell_type *known = find(type, nodes);
+  fg__fail(set->context, FG_STATUS_UNSUPPORTED,
+           "%s: cell %d is a %s of %zu points (VTK's number %d); only linear and "
+           "quadratic cells can be read",
+           set->path, number, known ? known->name : "type that is not known", nodes,
+           type);
+  fg__hint(set->context, "%s", FG__RESAMPLE);
   return FG_STATUS_UNSUPPORTED;
 }
 
@@ -272,47 +281,49 @@ static fg_status add_strip(fg__cell_set *set, const int *point, size_t corners,
   return status;
 }
 
-/* Polygons and strips have any number of corners. */
-static fg_status add_many(fg__cell_set *set, int type, const double *node, size_t nodes,
-                          const fg__cell_points *points, int number)
+static bool is_of_any_order(int type)
 {
-  int *point = fg__allocate(nodes, sizeof *point);
-  if (!point)
-    return fg__fail_memory(set->context, "a polygon", nodes * sizeof *point);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  if (status == FG_STATUS_OK)
-    status = (type == STRIP ? add_strip : add_polygon)(set, point, nodes, number);
-  free(point);
-  return status;
+  return type >= 69 && type <= 74;
 }
 
-fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const double *node,
-                              size_t nodes, const fg__cell_points *points, int number)
+/* The square of the distance of a point from the middle between two. */
+static double off_middle(const fg__cell_set *set, int point, int a, int b)
 {
-  int point[MOST_NODES + MOST_MIDDLES];
-  if (is_line(type))
-    return FG_STATUS_OK;
-  if (type == STRIP || type == POLYGON)
-    return add_many(set, type, node, nodes, points, number);
-  const cell_type *known = find(type);
-  if (!known || known->parts == 0)
-    return fail_type(set, type, number);
-  if (nodes != (size_t)known->nodes)
-    return fail_nodes(set, known->name, nodes, known->nodes, number);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  return status == FG_STATUS_OK ? add_parts(set, known, point, number) : status;
+  double sum = 0.0;
+  for (size_t k = 0; k < 3; ++k) {
+    const double off =
+        set->position[3 * (size_t)point + k] -
+        0.5 * (set->position[3 * (size_t)a + k] + set->position[3 * (size_t)b + k]);
+    sum += off * off;
+  }
+  return sum;
+}
+
+/* VTK before 9 has the nodes of the last two edges of a Lagrange hexahedron in the other
+ * order; where they lie tells which it is. */
+static void order_edges(const fg__cell_set *set, int *point)
+{
+  const double as_now = off_middle(set, point[18], point[2], point[6]) +
+                        off_middle(set, point[19], point[3], point[7]);
+  const double as_before = off_middle(set, point[19], point[2], point[6]) +
+                           off_middle(set, point[18], point[3], point[7]);
+  if (as_before < as_now) {
+    const int kept = point[18];
+    point[18] = point[19];
+    point[19] = kept;
+  }
 }
 
 /* The pyramids between a face and the middle, in tetrahedra: from the face's first point
  * in the file's order, so that it is divided alike from both its sides. */
-static fg_status add_face(fg__cell_set *set, const int *point, size_t corners, int middle,
+static fg_status add_face(fg__cell_set *set, const int *point, int corners, int middle,
                           int number)
 {
-  size_t first = 0;
+  int first = 0;
   fg_status status = FG_STATUS_OK;
-  for (size_t i = 1; i < corners; ++i)
+  for (int i = 1; i < corners; ++i)
     first = point[i] < point[first] ? i : first;
-  for (size_t i = 1; i + 1 < corners && status == FG_STATUS_OK; ++i)
+  for (int i = 1; i + 1 < corners && status == FG_STATUS_OK; ++i)
     status = fg__cell_set_add_points(set, FG__CELL_TETRAHEDRON,
                                      (int[4]){point[first], point[(first + i) % corners],
                                               point[(first + i + 1) % corners], middle},
@@ -320,44 +331,45 @@ static fg_status add_face(fg__cell_set *set, const int *point, size_t corners, i
   return status;
 }
 
-static fg_status add_faces(fg__cell_set *set, int *point, int middle, const double *face,
-                           size_t numbers, const fg__cell_points *points, int number)
+/* Between its faces and the mean of its points lie pyramids; so it should be convex. */
+static fg_status add_polyhedron(fg__cell_set *set, const int *corner, size_t count,
+                                int number)
 {
-  size_t at = 1;
-  fg_status status = FG_STATUS_OK;
-  for (double f = 0.0; f < face[0] && status == FG_STATUS_OK; ++f) {
-    const double corners = at < numbers ? face[at++] : -1.0;
-    if (!(corners >= 0.0 && corners <= (double)(numbers - at)))
-      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                      "%s: the faces of cell %d, a polyhedron, are not within their %zu "
-                      "numbers",
-                      set->path, number, numbers);
-    status = fg__cell_set_resolve(point, set, face + at, (size_t)corners, points, number);
-    if (status == FG_STATUS_OK)
-      status = add_face(set, point, (size_t)corners, middle, number);
-    at += (size_t)corners;
+  const int nodes = corner[0], *face = corner + 1 + nodes;
+  int middle = 0;
+  if ((size_t)nodes + 1 == count)
+    return fail_type(set, FG__POLYHEDRON, (size_t)nodes, number);
+  if (nodes < 4)
+    return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                    "%s: cell %d is a polyhedron with %d corners", set->path, number,
+                    nodes);
+  fg_status status = add_middle(&middle, set, 0, nodes, corner + 1);
+  int faces = *face++;
+  for (; faces > 0 && status == FG_STATUS_OK; --faces) {
+    status = add_face(set, face + 1, face[0], middle, number);
+    face += 1 + face[0];
   }
   return status;
 }
 
-fg_status fg__cell_set_add_polyhedron(fg__cell_set *set, const double *node, size_t nodes,
-                                      const double *face, size_t numbers,
-                                      const fg__cell_points *points, int number)
+fg_status fg__cell_set_add_as(fg__cell_set *set, int type, const int *corner,
+                              size_t count, int number)
 {
-  if (nodes < 4 || nodes > INT_MAX || numbers == 0)
-    return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
-                    "%s: cell %d is a polyhedron with %zu corners and %zu numbers of its "
-                    "faces",
-                    set->path, number, nodes, numbers);
-  const size_t room = nodes > numbers ? nodes : numbers;
-  int *point = fg__allocate(room, sizeof *point), middle = 0;
-  if (!point)
-    return fg__fail_memory(set->context, "a polyhedron", room * sizeof *point);
-  fg_status status = fg__cell_set_resolve(point, set, node, nodes, points, number);
-  if (status == FG_STATUS_OK)
-    status = add_middle(&middle, set, 0, (int)nodes, point);
-  if (status == FG_STATUS_OK)
-    status = add_faces(set, point, middle, face, numbers, points, number);
-  free(point);
-  return status;
+  int point[MOST_NODES + MOST_MIDDLES];
+  if (is_line(type))
+    return FG_STATUS_OK;
+  if (type == STRIP || type == POLYGON)
+    return (type == STRIP ? add_strip : add_polygon)(set, corner, count, number);
+  if (type == FG__POLYHEDRON)
+    return add_polyhedron(set, corner, count, number);
+  const cell_type *known = find(type, count);
+  const bool fits = known && count == (size_t)known->nodes;
+  if (!known || known->parts == 0 || (!fits && is_of_any_order(type)))
+    return fail_type(set, type, count, number);
+  if (!fits)
+    return fail_nodes(set, known->name, count, known->nodes, number);
+  memcpy(point, corner, count * sizeof *point);
+  if (type == LAGRANGE_HEXAHEDRON && count == MOST_NODES)
+    order_edges(set, point);
+  return add_parts(set, known, point, number);
 }

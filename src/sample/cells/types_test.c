@@ -144,11 +144,10 @@ static void place_nodes(double position[3 * MOST], const quadratic *cell)
 
 static void add_nodes(fg__cell_set *set, int type, int nodes)
 {
-  double node[MOST];
+  int node[MOST];
   for (int i = 0; i < nodes; ++i)
     node[i] = i;
-  const fg__cell_points all = {0, set->points};
-  if (fg__cell_set_add_as(set, type, node, (size_t)nodes, &all, 0))
+  if (fg__cell_set_add_as(set, type, node, (size_t)nodes, 0))
     fail_msg("%d: %s", type, fg_context_message(set->context));
   set->numbers = 1;
 }
@@ -217,14 +216,11 @@ static void polygons_and_strips_are_triangles(void **state)
   add_nodes(&set, 6, 5);
   assert_int_equal(set.count, 3);
   fg__cell_set_clear(&set);
-  static const double node[] = {0, 1, 2, 3, 4, 5, 9};
+  static const int node[] = {0, 1, 2, 3, 4, 5};
   set = set_of(*state, dent, 6);
-  const fg__cell_points all = {0, 6};
-  assert_int_equal(fg__cell_set_add_as(&set, 7, node, 6, &all, 3), FG_STATUS_UNSUPPORTED);
+  assert_int_equal(fg__cell_set_add_as(&set, 7, node, 6, 3), FG_STATUS_UNSUPPORTED);
   assert_non_null(strstr(fg_context_message(*state), "cell 3 is a polygon of 6"));
-  fg_context_clear(*state);
-  assert_int_equal(fg__cell_set_add_as(&set, 7, node, 7, &all, 3), FG_STATUS_FILE_FORMAT);
-  assert_int_equal(fg__cell_set_add_as(&set, 68, node, 3, &all, 3), FG_STATUS_OK);
+  assert_int_equal(fg__cell_set_add_as(&set, 68, node, 3, 3), FG_STATUS_OK);
   assert_int_equal(set.count, 0);
   fg__cell_set_clear(&set);
 }
@@ -267,24 +263,22 @@ static void tilted_planes_are_turned(void **state)
   }
 }
 
-/* A prism over a hexagon, each of its faces begun at another point. */
-static const double PRISM_FACES[] = {8, 6, 5, 4,  3, 2, 1,  0,  6, 8, 9, 10, 11, 6, 7,
-                                     4, 1, 7, 6,  0, 4, 1,  2,  8, 7, 4, 9,  8,  2, 3,
-                                     4, 3, 4, 10, 9, 4, 11, 10, 4, 5, 4, 5,  0,  6, 11};
+/* A prism over a hexagon: its points in any order, and its faces, each begun at another.
+ */
+static const int PRISM_CELL[] = {12, 0,  5, 10, 3,  8,  1, 6, 11, 4,  9,  2, 7, 8, 6,
+                                 5,  4,  3, 2,  1,  0,  6, 8, 9,  10, 11, 6, 7, 4, 1,
+                                 7,  6,  0, 4,  1,  2,  8, 7, 4,  9,  8,  2, 3, 4, 3,
+                                 4,  10, 9, 4,  11, 10, 4, 5, 4,  5,  0,  6, 11};
 
-static fg_status add_prism(fg__cell_set *set, size_t nodes, size_t numbers)
+static fg_status add_prism(fg__cell_set *set)
 {
-  double node[12];
-  for (int i = 0; i < 12; ++i)
-    node[i] = (5 * i) % 12; /* in any order */
-  const fg__cell_points all = {0, set->points};
   set->numbers = 1;
-  return fg__cell_set_add_polyhedron(set, node, nodes, PRISM_FACES, numbers, &all, 0);
+  return fg__cell_set_add_as(set, FG__POLYHEDRON, PRISM_CELL,
+                             sizeof PRISM_CELL / sizeof *PRISM_CELL, 0);
 }
 
 static void a_polyhedron_is_filled(void **state)
 {
-  enum { NUMBERS = sizeof PRISM_FACES / sizeof PRISM_FACES[0] };
   static const double hexagon[6][2] = {{2, 0}, {4, 0}, {5, 2}, {4, 4}, {2, 4}, {1, 2}};
   double position[3 * 12];
   for (int n = 0; n < 12; ++n) {
@@ -293,7 +287,7 @@ static void a_polyhedron_is_filled(void **state)
     position[3 * n + 2] = n < 6 ? 1.0 : 4.0;
   }
   fg__cell_set set = set_of(*state, position, 12);
-  assert_int_equal(add_prism(&set, 12, NUMBERS), FG_STATUS_OK);
+  assert_int_equal(add_prism(&set), FG_STATUS_OK);
   assert_int_equal(fg__cell_set_count(&set), 1);
   locate(&set);
   assert_int_equal(set.points, 13);
@@ -313,16 +307,14 @@ static void a_polyhedron_is_filled(void **state)
   }
   free(value);
   fg__cell_set_clear(&set);
-  for (size_t numbers = 0; numbers < NUMBERS; ++numbers) {
-    set = set_of(*state, position, 12);
-    assert_int_equal(add_prism(&set, 12, numbers), FG_STATUS_FILE_FORMAT);
-    fg__cell_set_clear(&set);
-  }
   set = set_of(*state, position, 12);
-  assert_int_equal(add_prism(&set, 3, NUMBERS), FG_STATUS_FILE_FORMAT);
-  fg__cell_set_clear(&set);
-  set = set_of(*state, position, 11); /* one point less than the faces have */
-  assert_int_equal(add_prism(&set, 4, NUMBERS), FG_STATUS_FILE_FORMAT);
+  assert_int_equal(
+      fg__cell_set_add_as(&set, FG__POLYHEDRON, (const int[]){2, 0, 1, 0}, 4, 0),
+      FG_STATUS_FILE_FORMAT);
+  fg_context_clear(*state);
+  assert_int_equal(fg__cell_set_add_as(&set, FG__POLYHEDRON, PRISM_CELL, 13, 0),
+                   FG_STATUS_UNSUPPORTED); /* without faces */
+  assert_non_null(strstr(fg_context_message(*state), "cell 0 is a polyhedron"));
   fg__cell_set_clear(&set);
 }
 
@@ -336,8 +328,7 @@ static void a_polyhedron_is_a_layer(void **state)
     position[3 * n + 2] = n < 6 ? 1.0 : 4.0;
   }
   fg__cell_set set = set_of(*state, position, 12);
-  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
-                   FG_STATUS_OK);
+  assert_int_equal(add_prism(&set), FG_STATUS_OK);
   locate(&set);
   assert_int_equal(set.flat, 2);
   float *value = sample(&set, linear);
@@ -362,8 +353,7 @@ static void parts_count_once_in_means(void **state)
   for (int n = 0; n < 39; ++n)
     position[n] = sin(n);
   fg__cell_set set = set_of(*state, position, 13);
-  assert_int_equal(add_prism(&set, 12, sizeof PRISM_FACES / sizeof PRISM_FACES[0]),
-                   FG_STATUS_OK);
+  assert_int_equal(add_prism(&set), FG_STATUS_OK);
   add(&set, FG__CELL_TETRAHEDRON, (const int[]){0, 1, 7, 12});
   set.file_points = set.points;
   for (size_t i = 0; i < set.corners; ++i) /* the middle is not placed */
@@ -379,14 +369,78 @@ static void parts_count_once_in_means(void **state)
   fg__cell_set_clear(&set);
 }
 
+/* Adds nodes 0, 1, ... of the cells of CELLS that has as many of another type. */
+static fg__cell_set set_of_type(void *state, int type, const double *position, int nodes)
+{
+  fg__cell_set set = set_of(state, position, (size_t)nodes);
+  add_nodes(&set, type, nodes);
+  return set;
+}
+
+static void lagrange_cells_are_those_of_their_order(void **state)
+{
+  static const struct {
+    int lagrange, type, nodes, like; /* the type of CELLS whose nodes are taken */
+  } alike[] = {{69, 5, 3, 22},  {69, 22, 6, 22},  {70, 9, 4, 28},  {70, 28, 9, 28},
+               {71, 10, 4, 24}, {71, 24, 10, 24}, {72, 12, 8, 29}, {72, 29, 27, 29},
+               {73, 13, 6, 32}, {73, 32, 18, 32}, {74, 14, 5, 27}};
+  for (size_t i = 0; i < sizeof alike / sizeof *alike; ++i) {
+    const quadratic *cell = CELLS;
+    double position[3 * MOST];
+    while (cell->type != alike[i].like)
+      ++cell;
+    place_nodes(position, cell);
+    fg__cell_set set = set_of_type(*state, alike[i].lagrange, position, alike[i].nodes);
+    fg__cell_set other = set_of_type(*state, alike[i].type, position, alike[i].nodes);
+    assert_true(set.count > 0 && set.count == other.count);
+    assert_memory_equal(set.shape, other.shape, set.count);
+    assert_memory_equal(set.corner, other.corner, set.corners * sizeof *set.corner);
+    fg__cell_set_clear(&set);
+    fg__cell_set_clear(&other);
+  }
+  const int node[MOST] = {0};
+  fg__cell_set set = {.context = *state, .path = "cells"};
+  for (int type = 69; type <= 74; ++type) { /* of order 3, or of another order along z */
+    assert_int_equal(fg__cell_set_add_as(&set, type, node, 16, 7), FG_STATUS_UNSUPPORTED);
+    assert_non_null(strstr(fg_context_message(*state), "of 16 points"));
+    fg_context_clear(*state);
+  }
+  fg__cell_set_clear(&set);
+}
+
+/* Nodes 18 and 19 lie between corners 3 and 7, and 2 and 6, in files of VTK before 9. */
+static void edges_of_a_lagrange_hexahedron_come_in_either_order(void **state)
+{
+  const quadratic *cell = CELLS;
+  double now[3 * MOST], before[3 * MOST];
+  while (cell->type != 29)
+    ++cell;
+  place_nodes(now, cell);
+  memcpy(before, now, sizeof now);
+  memcpy(before + 3 * 18, now + 3 * 19, 3 * sizeof *now);
+  memcpy(before + 3 * 19, now + 3 * 18, 3 * sizeof *now);
+  fg__cell_set set = set_of_type(*state, 72, now, MOST);
+  fg__cell_set other = set_of_type(*state, 72, before, MOST);
+  for (size_t i = 0; i < set.corners; ++i)
+    for (int k = 0; k < 3; ++k)
+      assert_true(now[3 * set.corner[i] + k] == before[3 * other.corner[i] + k]);
+  fg__cell_set_clear(&set);
+  fg__cell_set_clear(&other);
+}
+
 #define CASE(f) cmocka_unit_test_setup_teardown(f, context_set_up, context_tear_down)
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      CASE(parts_fill_their_cell),     CASE(polygons_and_strips_are_triangles),
-      CASE(a_polyhedron_is_filled),    CASE(a_polyhedron_is_a_layer),
-      CASE(parts_count_once_in_means), CASE(tilted_planes_are_turned),
+      CASE(parts_fill_their_cell),
+      CASE(polygons_and_strips_are_triangles),
+      CASE(a_polyhedron_is_filled),
+      CASE(a_polyhedron_is_a_layer),
+      CASE(parts_count_once_in_means),
+      CASE(tilted_planes_are_turned),
+      CASE(lagrange_cells_are_those_of_their_order),
+      CASE(edges_of_a_lagrange_hexahedron_come_in_either_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "sample/gaps.h"
 #include "sample/points/points.h"
 
 enum {
@@ -118,6 +119,61 @@ static fg_status fill_gaps(lines *l, const fg__scatter *points)
                 : FG_STATUS_OK;
 }
 
+/* How far apart the lines are on one side of interval i, which is a gap. */
+static double step_beside(const lines *l, const bool *gap, size_t i, bool after)
+{
+  const size_t intervals = l->count - 1;
+  for (size_t k = 1; k < intervals; ++k) {
+    const size_t other = after ? i + k : i - k;
+    if (other < intervals && !gap[other])
+      return l->at[other + 1] - l->at[other];
+    if (other >= intervals)
+      break;
+  }
+  return 0.25 * (l->at[i + 1] - l->at[i]);
+}
+
+/* Two lines without a point in each interval that is wide beside its neighbours, so that
+ * nothing is interpolated across it. */
+static fg_status open_gaps(lines *l, size_t *gaps, const fg__scatter *points)
+{
+  const size_t intervals = l->count > 0 ? l->count - 1 : 0;
+  double *length = fg__allocate(l->count, sizeof *length);
+  bool *gap = fg__allocate(l->count, sizeof *gap);
+  size_t found = 0;
+  for (size_t i = 0; i < intervals && length; ++i)
+    length[i] = l->at[i + 1] - l->at[i];
+  if (length && gap)
+    found = fg__gaps_find(gap, length, intervals);
+  double *at = fg__allocate(l->count + 2 * found, sizeof *at);
+  int *now = fg__allocate(l->count, sizeof *now);
+  const bool memory = length && gap && at && now;
+  if (memory && found > 0) {
+    size_t n = 0;
+    for (size_t i = 0; i < l->count; ++i) {
+      now[i] = (int)n;
+      at[n++] = l->at[i];
+      if (i == intervals || !gap[i])
+        continue;
+      at[n++] = l->at[i] + fmin(step_beside(l, gap, i, false), 0.25 * length[i]);
+      at[n++] = l->at[i + 1] - fmin(step_beside(l, gap, i, true), 0.25 * length[i]);
+    }
+    for (size_t p = 0; p < points->count; ++p)
+      l->of[p] = now[l->of[p]];
+    free(l->at);
+    l->at = at;
+    l->count = n;
+    at = NULL;
+  }
+  *gaps += found;
+  free(length);
+  free(gap);
+  free(at);
+  free(now);
+  return memory ? FG_STATUS_OK
+                : fg__fail_memory(points->context, "lines of a grid", l->count * 8);
+}
+
 /* The point at each crossing, or -1; false when two are at one. */
 static bool place_points(int *point_at, size_t samples, const fg__scatter *points,
                          const lines *l)
@@ -184,6 +240,7 @@ fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
   lines l[3] = {{0}, {0}, {.count = 1}};
   double samples = 1.0;
   int *point_at = NULL;
+  size_t gaps = 0;
   fg_status status = FG_STATUS_OK;
   *out = (fg__point_grid){0};
   *found = true;
@@ -192,6 +249,8 @@ fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
     status = find_lines(&l[k], points, k);
     if (status == FG_STATUS_OK)
       status = fill_gaps(&l[k], points);
+    if (status == FG_STATUS_OK)
+      status = open_gaps(&l[k], &gaps, points);
     samples *= (double)l[k].count;
     *found = l[k].count > 1 &&
              samples <= fmin(MOST_EMPTY * (double)points->count + SMALL, INT_MAX);
@@ -210,6 +269,7 @@ fg_status fg__scatter_find_grid(fg__point_grid *out, bool *found,
     if (*found)
       status = take_samples(out, point_at, (size_t)samples, points, l);
   }
+  out->gaps = *found ? gaps : 0;
   free(point_at);
   for (int k = 0; k < 3; ++k)
     clear(&l[k]);

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "field/refused.h"
 #include "sample/points/delaunay.h"
+#include "terms/units.h"
 
 /* The largest share of points that may have another value than one at the same place. */
 static const double FEW = 0.1;
@@ -67,13 +68,16 @@ static fg_status check_points(const fg__scatter *points)
   for (size_t i = 0; i < points->count; ++i)
     if (fg__is_missing_code(across, 2, i))
       return fail_code(points, i);
-  for (size_t i = 0; i < points->count && points->geographic; ++i)
+  if (!points->geographic)
+    return FG_STATUS_OK;
+  for (size_t i = 0; i < points->count; ++i)
     if (fabs(points->position[1][i]) > 90.0 || fabs(points->position[0][i]) > 720.0)
       return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
                       "%s: %s %d: longitude %g, latitude %g is no place on the globe",
                       points->path, points->records, record_of(points, i),
                       points->position[0][i], points->position[1][i]);
-  return FG_STATUS_OK;
+  return fg__check_degrees(points->context, points->path, points->position[0],
+                           points->position[1], points->count);
 }
 
 static int by_size(const void *a, const void *b)
@@ -232,14 +236,10 @@ static fg_status merge_doubled(fg__scatter *points)
 
 static fg_status add_cells(fg__cell_set *set, const fg__triangles *triangles)
 {
-  const fg__cell_points all = {0, set->points};
   fg_status status = FG_STATUS_OK;
-  for (size_t t = 0; t < triangles->count && status == FG_STATUS_OK; ++t) {
-    double corner[3];
-    for (int k = 0; k < 3; ++k)
-      corner[k] = (double)triangles->corner[3 * t + (size_t)k];
-    status = fg__cell_set_add(set, FG__CELL_TRIANGLE, corner, &all, (int)t);
-  }
+  for (size_t t = 0; t < triangles->count && status == FG_STATUS_OK; ++t)
+    status = fg__cell_set_add_points(set, FG__CELL_TRIANGLE, triangles->corner + 3 * t,
+                                     (int)t);
   set->numbers = triangles->count;
   return status;
 }
@@ -349,6 +349,8 @@ fg_status fg__scatter_field(fg_field **out, fg__scatter_between *between,
     status = points->dimension == 3 ? fg__scatter_fit(&grid, points)
                                     : interpolate(&grid, between, points);
   between->points = grid.points;
+  if (found)
+    between->gaps = grid.gaps;
   if (status == FG_STATUS_OK)
     status = fg__point_grid_straighten(&grid, points->context, points->path,
                                        points->geographic);

@@ -41,7 +41,7 @@ typedef struct fg__point_grid {
   double *axis[3]; /* [size[k]], ascending */
   double period;   /* of the first axis, or 0 */
   float *velocity[3];
-  size_t cells, points;
+  size_t cells, points, gaps;
 } fg__point_grid;
 
 void fg__point_grid_clear(fg__point_grid *grid);
@@ -50,7 +50,7 @@ size_t fg__point_grid_samples(const fg__point_grid *grid);
 /* What the samples of a field are interpolated from; both 0: each is the file's. */
 typedef struct fg__scatter_between {
   size_t cells, points;
-  size_t gaps; /* cells that were left out, since they bridge gaps */
+  size_t gaps; /* cells, or intervals of a grid, that are left out: they bridge gaps */
 } fg__scatter_between;
 
 /* The field of points, whose arrays it may change; the words are those of

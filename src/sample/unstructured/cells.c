@@ -91,6 +91,34 @@ static void add_polygon(mesh_work *w, const int *corner, int count)
     add_cell(w, corner[0], corner[k], corner[k + 1], -1);
 }
 
+void fg__fill_poles(const fg__mesh_topology *faces, size_t poles,
+                    float *const velocity[2])
+{
+  const size_t first = faces->nodes - poles;
+  double sum[3] = {0.0};
+  size_t count = 0, before = 0;
+  for (size_t f = 0; f < faces->count && poles > 0; ++f) {
+    const int *corner = faces->node + faces->first[f];
+    const int last = faces->first[f + 1] - faces->first[f] - 1;
+    if (last < 2 || (size_t)corner[last] < first)
+      continue;
+    const size_t pole = (size_t)corner[last], from = (size_t)corner[0];
+    if (pole != before) {
+      memset(sum, 0, sizeof sum);
+      count = 0;
+    }
+    before = pole;
+    const double east = (double)velocity[0][from], north = (double)velocity[1][from];
+    fg__sphere_frame at = fg__sphere_frame_at(faces->at[0][from], faces->at[1][from]);
+    for (int k = 0; k < 3 && isfinite(east) && isfinite(north); ++k)
+      sum[k] += east * at.east[k] + north * at.north[k];
+    count += isfinite(east) && isfinite(north);
+    at = fg__sphere_frame_at(faces->at[0][pole], faces->at[1][pole]);
+    velocity[0][pole] = count > 0 ? (float)(fg__dot(sum, at.east) / (double)count) : NAN;
+    velocity[1][pole] = count > 0 ? (float)(fg__dot(sum, at.north) / (double)count) : NAN;
+  }
+}
+
 fg_status fg__cells_of_nodes(fg__sphere_cells *out, fg_context *context,
                              fg__mesh_topology *faces, float *velocity[2])
 {

@@ -52,6 +52,10 @@ fg__healpix_pixel fg__healpix_find(long sides, long long number, bool nested);
 fg_status fg__healpix_faces(fg__mesh_topology *out, const fg__dataset *data,
                             const fg__unstructured *mesh);
 
+/* Gives poles, the last nodes, the mean vector of the nodes round them. */
+void fg__fill_poles(const fg__mesh_topology *faces, size_t poles,
+                    float *const velocity[2]);
+
 /* cells.c. Points with vectors and cells between them. Those of nodes lie in the faces,
  * those of faces between their centres, and at the rim of the mesh, and of faces without
  * a value, at its nodes, which have the mean of the faces round them. `on_sphere`:

@@ -5,6 +5,7 @@
 #include "map/map.h"
 #include "sample/cells/set.h"
 #include "sample/globe.h"
+#include "sample/layers.h"
 #include "sample/missing.h"
 #include "sample/points/points.h"
 #include "sample/unstructured/mesh.h"
@@ -84,6 +85,25 @@ static fg_status apply_mask(float *velocity, const request *r)
   return status;
 }
 
+/* Turns vectors along a mesh's rows to east and north. */
+static fg_status turn_vectors(float *const velocity[2], const request *r)
+{
+  const fg__unstructured *mesh = r->grid->unstructured;
+  double *turn[2] = {NULL, NULL};
+  if (!mesh->turn[0])
+    return FG_STATUS_OK;
+  const fg_status status =
+      fg__positions_of(turn, r->data, mesh, mesh->turn, r->grid->samples, 2);
+  for (size_t n = 0; n < r->grid->samples && status == FG_STATUS_OK; ++n) {
+    const double u = (double)velocity[0][n], v = (double)velocity[1][n];
+    velocity[0][n] = (float)(u * turn[0][n] - v * turn[1][n]);
+    velocity[1][n] = (float)(u * turn[1][n] + v * turn[0][n]);
+  }
+  free(turn[0]);
+  free(turn[1]);
+  return status;
+}
+
 static fg_status read_vectors(float *velocity[2], const request *r)
 {
   const fg__grid *grid = r->grid;
@@ -108,6 +128,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
     status =
         fg__polar_turn_all(r->data->context, velocity, grid->samples, &r->pair->polar,
                            r->data->file[0].path, r->pair->component[1]->plain_name);
+  if (status == FG_STATUS_OK)
+    status = turn_vectors(velocity, r);
   if (status != FG_STATUS_OK || r->counts_only)
     return status;
   return fg__refuse_missing_codes(r->data->context, r->data->file[0].path, velocity,
@@ -179,6 +201,7 @@ static fg_status make_cells(fg__sphere_cells *out, size_t *missing, const reques
   if (status == FG_STATUS_OK) {
     if (mesh->in_plane && !nodes)
       drop_wide_faces(velocity[0], &faces);
+    fg__fill_poles(&faces, mesh->poles, velocity);
     *missing = missing_of(velocity, r->grid->samples);
     status = nodes ? fg__cells_of_nodes(out, r->data->context, &faces, velocity)
                    : fg__cells_of_faces(out, r->data->context, &faces, velocity,
@@ -384,27 +407,22 @@ static double missing_of_field(const fg_field *field)
   return (double)missing / (double)samples;
 }
 
-static void describe_field(fg_inventory_vector *vector, const fg_field *field)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  vector->dimension = vector->components = a->dimension;
-  for (int k = 0; k < a->dimension; ++k) {
-    vector->size[k] = a->size[k];
-    vector->bounds[2 * k] = a->axis[k][0];
-    vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
-    vector->periodic[k] = a->period[k] > 0.0;
-  }
-  vector->scale = a->scale;
-}
-
 /* What points become between which nothing is known. */
 static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
-                            const fg__scatter_between *between)
+                            const fg__scatter_between *between, const fg_field *field)
 {
-  const size_t used = strlen(mesh->rule);
+  const fg_field_arrays *plane = field ? fg_field_contents(field) : NULL;
+  size_t used = strlen(mesh->rule);
+  if (plane && plane->dimension == 2 && mesh->node[2] && plane->level)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used, "; in the plane %.80s",
+             plane->level);
+  used = strlen(mesh->rule);
   vector->cells = between->cells;
   vector->points = between->points;
-  if (between->gaps > 0)
+  if (between->gaps > 0 && between->cells == 0)
+    snprintf(mesh->rule + used, sizeof mesh->rule - used,
+             ", a grid with gaps in %zu intervals", between->gaps);
+  else if (between->gaps > 0)
     snprintf(mesh->rule + used, sizeof mesh->rule - used,
              ", triangulated; %zu triangles across gaps left out", between->gaps);
   else if (between->cells > 0)
@@ -416,7 +434,7 @@ static void describe_points(fg_inventory_vector *vector, fg__unstructured *mesh,
 fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__dataset *data,
                                     const fg__pair *pair, const fg__grid *grid)
 {
-  static const fg_read_options first = {0};
+  const fg_read_options first = fg__first_samples(pair, grid);
   request r = {
       .data = data, .pair = pair, .grid = grid, .options = &first, .counts_only = true};
   fg__sphere *sphere = NULL;
@@ -431,13 +449,13 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
   if (status == FG_STATUS_OK && !sphere)
     status = make_field(&field, &between, &missing, &r, (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK && is_on_points(&r))
-    describe_points(vector, grid->unstructured, &between);
+    describe_points(vector, grid->unstructured, &between, field);
   if (status == FG_STATUS_OK && sphere) {
     fg__sphere_extent extent;
     fg__sphere_extent_of(&extent, sphere);
     fg__globe_describe(vector, &extent);
   } else if (status == FG_STATUS_OK) {
-    describe_field(vector, field);
+    fg__describe_field(vector, field);
   }
   vector->missing_share = (double)missing / (double)grid->samples;
   if (field && is_on_points(&r))

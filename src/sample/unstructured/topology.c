@@ -238,7 +238,7 @@ static fg_status read_bounds(fg__mesh_topology *out, const fg__dataset *data,
       const fg__variable *v = mesh->bounds[k];
       status = fg__variable_fetch(v, from, count, block[k]);
       const double factor = fg__degrees_in(mesh, mesh->centre[k]);
-      for (size_t n = 0; n < count[0] * corners && factor > 1.0; ++n)
+      for (size_t n = 0; n < count[0] * corners && factor != 1.0; ++n)
         block[k][n] *= factor;
     }
     memory =

@@ -1,0 +1,57 @@
+/* Opening of files whose decoders fill a dataset. */
+#include "read/dataset.h"
+#include "sample/space/space.h"
+
+/* What files of that kind, or this one, leave to choose from. */
+static fg_status check_options(const fg__dataset *data, fg_context *context,
+                               const fg__dataset_format *format, const fg__source *source,
+                               const fg_read_options *options)
+{
+  const bool opened = data->files > 0;
+  if (!opened && format->alone)
+    return fg__check_one_file(context, source, options, format->alone);
+  if (opened && format->alone && options->block && !data->has_blocks)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: block \"%.100s\" is asked for, but the file has no blocks",
+                    source->path, options->block);
+  return FG_STATUS_OK;
+}
+
+fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
+                           const fg__dataset_format *format, const fg__source *source,
+                           const fg_read_options *options)
+{
+  fg_status status = FG_STATUS_OK;
+  if (options)
+    status = check_options(data, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = format->open_chosen ? format->open_chosen(data, context, source, options)
+                                 : format->open(data, context, source);
+  if (options && status == FG_STATUS_OK)
+    status = check_options(data, context, format, source, options);
+  if (status == FG_STATUS_OK)
+    status = fg__settle_names(data);
+  return status == FG_STATUS_OK && data->space.is_there ? fg__space_domain_open(data)
+                                                        : status;
+}
+
+/* Files but the first, which the caller has opened, may have become shorter. */
+fg_status fg__dataset_check(const fg__dataset *data, fg_status status)
+{
+  for (int n = 0; n < data->files; ++n) {
+    const fg__dataset_file *file = &data->file[n];
+    if (n > 0)
+      status = fg__source_check(data->context, status, file->path, file->size);
+    if (file->state && file->decoder->check)
+      status = file->decoder->check(file->state, status);
+  }
+  return status;
+}
+
+fg_status fg__dataset_end(fg__dataset *data, fg_status status)
+{
+  status = fg__dataset_check(data, status);
+  fg__space_domain_close(data);
+  fg__dataset_close(data);
+  return status;
+}
