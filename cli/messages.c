@@ -170,9 +170,10 @@ int complain_of_memory(const char *what)
 
 void report_doubts(const char *file, const fg_field *field)
 {
+  const char *name = input_name(file) ? input_name(file) : "";
   for (const char *line = fg_field_contents(field)->doubts; line && *line;) {
     const size_t length = strcspn(line, "\n");
-    complain("%s: %.*s", input_name(file), (int)length, line);
+    complain("%s: %.*s", name, (int)length, line);
     line += length + (line[length] == '\n');
   }
   const size_t count = fg_field_infinite(field);
