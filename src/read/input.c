@@ -139,7 +139,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
 static fg_status sign_slab(fg_field *field, fg_context *context, const fg_input *input,
                            const fg_read_options *options)
 {
-  fg__field_slab *slab = field->slab;
+  fg__field_slab *slab = field ? field->slab : NULL;
   if (!slab)
     return FG_STATUS_OK;
   slab->key ^= key_of_reading(input->name, options);

@@ -241,7 +241,7 @@ static fg_status list_variables(const listing *l)
     error = nc_inq_varids(l->group, &count, ids);
   fg_status status =
       ids && !error ? FG_STATUS_OK : fail_listing(l, "its variables", error);
-  for (int i = 0; i < count && status == FG_STATUS_OK; ++i)
+  for (int i = 0; ids && i < count && status == FG_STATUS_OK; ++i)
     status = list_variable(l, ids[i]);
   free(ids);
   return status;

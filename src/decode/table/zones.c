@@ -93,14 +93,16 @@ static fg_status find_total(total *out, const fg__tecplot *r)
   *out = (total){.times = 1, .flat = true};
   for (int k = 0; k < 3; ++k)
     out->place[k] = find_place(r, k);
-  while (out->zones < r->zones && !(r->zone[out->zones].time > r->zone[0].time ||
-                                    r->zone[out->zones].time < r->zone[0].time)) {
+  if (r->zones == 0)
+    return FG_STATUS_OK;
+  do {
     const fg__zone *z = &r->zone[out->zones++];
     out->points += z->points;
     out->cells += z->cells;
     out->flat = out->flat && z->cells > 0 && (z->corners < 4 || z->corners == 4) &&
                 z->size[2] == 1;
-  }
+  } while (out->zones < r->zones && !(r->zone[out->zones].time > r->zone[0].time ||
+                                      r->zone[out->zones].time < r->zone[0].time));
   out->times = r->zones / out->zones;
   for (size_t i = out->zones; i < r->zones; ++i) {
     const fg__zone *a = &r->zone[i % out->zones], *b = &r->zone[i];

@@ -103,7 +103,7 @@ static fg_status find_corner_count(size_t *out, const fg__vtk *file,
   *out = list->corner_numbers;
   if (*out > 0)
     return FG_STATUS_OK;
-  const double last = ends->of[ends->count - 1];
+  const double last = ends->of && ends->count > 0 ? ends->of[ends->count - 1] : 0.0;
   if (!(last >= 0.0 && last <= INT_MAX))
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                     "%s: a piece's cells have %g corners", file->path, last);

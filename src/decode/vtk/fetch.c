@@ -205,8 +205,9 @@ static fg_status fail_hole(const wanted_numbers *w, size_t n)
   size_t whole[3], at[3], all;
   for (int k = 0; k < 3; ++k) {
     whole[k] = fg__vtk_length(vtk->extent, k, w->place);
-    at[k] = w->origin[k] + n % w->size[k];
-    n /= w->size[k];
+    const size_t size = w->size[k] > 0 ? w->size[k] : 1;
+    at[k] = w->origin[k] + n % size;
+    n /= size;
   }
   fg__vtk_count(&all, vtk->extent, w->place);
   return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,

@@ -67,7 +67,7 @@ static fg_status create_field(fg_field **out, const fg__dataset *data,
       .time = time[0] ? time : NULL,
       .level = level[0] ? level : NULL,
       .doubts = grid->doubts[0] ? grid->doubts : NULL};
-  for (int k = 0; k < grid->dimension; ++k) {
+  for (int k = 0; k < grid->dimension && k < 3; ++k) {
     name_component(component[k], pair, grid, k);
     arrays.size[k] = (int)grid->axis[k].size;
     arrays.axis[k] = axis[k];

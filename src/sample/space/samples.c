@@ -66,7 +66,7 @@ typedef struct box {
 
 static bool is_of_cells(const request *r)
 {
-  return r->variable[0]->location == FG__OF_CELLS;
+  return r->variable[0] && r->variable[0]->location == FG__OF_CELLS;
 }
 
 static box box_of(const request *r)
@@ -311,7 +311,7 @@ static fg_status apply_marks(float *velocity[3], const request *r)
   const size_t count = fg__space_domain_row(r->domain) * r->rows.count;
   const fg_status status = read_onto_points(marks, r, true);
   for (int k = 0; k < r->domain->dimension && status == FG_STATUS_OK; ++k)
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count && marks[0]; ++i)
       if (isnan(marks[0][i]))
         velocity[k][i] = NAN;
   for (int k = 0; k < 3; ++k)
@@ -359,7 +359,7 @@ static fg_status apply_mask(float *velocity[3], request r, const char *name)
 /* Keeps the components along a plane's two directions. */
 static void turn(float *out[3], const fg__plane_basis *basis, size_t count)
 {
-  for (size_t n = 0; n < count; ++n) {
+  for (size_t n = 0; n < count && out[0] && out[1] && out[2]; ++n) {
     const double u[3] = {(double)out[0][n], (double)out[1][n], (double)out[2][n]};
     out[0][n] = (float)fg__dot(u, basis->direction[0]);
     out[1][n] = (float)fg__dot(u, basis->direction[1]);

@@ -50,7 +50,8 @@ static fg_status turn_polar(double *const velocity[3], const fg__mesh_request *r
   const fg__polar *polar = &r->pair->polar;
   const fg__variable *direction = r->pair->component[1];
   fg__angles angles = {0};
-  for (size_t n = 0; n < r->grid->samples && polar->sense != 0; ++n) {
+  const bool turns = polar->sense != 0 && velocity[0] && velocity[1];
+  for (size_t n = 0; n < r->grid->samples && turns; ++n) {
     double one[2] = {velocity[0][n], velocity[1][n]};
     if (one[0] == 0.0)
       one[1] = 0.0;
@@ -90,19 +91,19 @@ static fg_status settle(fg__scatter *out, double *const velocity[3],
                          .components = out->dimension,
                          .count = r->grid->samples,
                          .valid = valid};
-  for (int k = 0; k < out->dimension; ++k) {
+  for (int k = 0; k < out->dimension && k < 3 && velocity[k]; ++k) {
     for (size_t n = 0; n < raw.count; ++n)
       out->velocity[k][n] = fg__as_velocity(velocity[k][n]);
     raw.name[k] = r->pair->component[k]->plain_name;
     raw.component[k] = out->velocity[k];
   }
   fg_status status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
-  for (int k = 0; k < out->dimension && r->pair->polar.sense != 0; ++k)
+  for (int k = 0; k < 2 && r->pair->polar.sense != 0 && velocity[k]; ++k)
     for (size_t n = 0; n < raw.count; ++n)
       velocity[k][n] = isnan(out->velocity[k][n]) ? (double)NAN : velocity[k][n];
   if (status == FG_STATUS_OK)
     status = turn_polar(velocity, r);
-  for (int k = 0; k < out->dimension && r->pair->polar.sense != 0; ++k)
+  for (int k = 0; k < 2 && r->pair->polar.sense != 0 && velocity[k]; ++k)
     for (size_t n = 0; n < raw.count; ++n)
       out->velocity[k][n] = fg__as_velocity(velocity[k][n]);
   return status;
