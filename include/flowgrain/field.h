@@ -43,9 +43,10 @@ typedef struct fg_read_options {
   int level;             /* index along level, from 0 */
   const char *mask;      /* variable that is zero, negative or missing outside the domain;
                             NULL:      none, or one that a model's file is known for */
-  const char *missing; /* "-9999,1e20": numbers that stand for missing values besides those
-                          that the file declares; "none": every number is a value, also
-                          one that recurs apart from all others; NULL: none is given */
+  const char
+      *missing; /* "-9999,1e20": numbers that stand for missing values besides those
+                   that the file declares; "none": every number is a value, also
+                   one that recurs apart from all others; NULL: none is given */
   fg_scale scale;
   const char *block; /* of a file in blocks, the block of this name and those within it;
                         NULL: all together */
@@ -99,8 +100,8 @@ typedef struct fg_field_arrays {
   const char *level;            /* the chosen level in words; NULL: none */
   const char *projection; /* scale MAP: a PROJ string that takes longitude and latitude to
                              the axes' coordinates; NULL: not known */
-  const char *doubts;       /* what is unsure of how a file was read, a line each; NULL:
-                               nothing */
+  const char *doubts;     /* what is unsure of how a file was read, a line each; NULL:
+                             nothing */
 } fg_field_arrays;
 
 /* Copies arrays into a new field. ARGUMENT (sizes, order of axes, no valid cell, speeds

@@ -32,9 +32,9 @@
  * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
- * ranks), field.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h, energy.h and
- * checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly N
- * arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
+ * ranks), field.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h, energy.h
+ * and checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly
+ * N arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
  * rival.h (what to compare with), score.h (how good it is), words.h (suggestions for
  * misspelt words); and mpi.h (several processes), which it does not include. Each can be
  * included alone.

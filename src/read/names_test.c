@@ -163,10 +163,14 @@ enum { NPY_HEADER = 128, NPY_BYTES = NPY_HEADER + COUNT * 8 };
 
 static void make_npy(unsigned char out[NPY_BYTES], int which)
 {
-  memcpy(out, "\x93NUMPY\x01\x00\x76\x00", 10);
-  memset(out + 10, ' ', NPY_HEADER - 11);
-  const char *header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }";
-  memcpy(out + 10, header, strlen(header));
+  static const unsigned char begin[] = {0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, 0x76, 0};
+  static const char header[] =
+      "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), }";
+  memset(out, ' ', NPY_HEADER);
+  for (size_t n = 0; n < sizeof begin; ++n)
+    out[n] = begin[n];
+  for (size_t n = 0; header[n]; ++n)
+    out[sizeof begin + n] = (unsigned char)header[n];
   out[NPY_HEADER - 1] = '\n';
   for (int n = 0; n < COUNT; ++n) {
     const double value = value_of(which, n);

@@ -110,7 +110,7 @@ static void a_list_of_numbers_is_read_whole(void **state)
 
 static int create(void **state)
 {
-  return fg_context_create((fg_context **)state);
+  return (int)fg_context_create((fg_context **)state);
 }
 
 static int destroy(void **state)

@@ -14,7 +14,7 @@ typedef enum fg__evidence {
   FG__BY_STANDARD_OTHER = 6,
   FG__BY_OTHER_NAMES = 8,
   FG__BY_UPRIGHT_NAMES = 10,
-  FG__BY_SHAPE = 12, /* of an array alone */
+  FG__BY_SHAPE = 12,     /* of an array alone */
   FG__BY_LONG_NAMES = 14 /* and by what they say */
 } fg__evidence;
 

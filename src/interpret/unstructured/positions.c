@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "interpret/unstructured/unstructured.h"
 
-
 double fg__degrees_in(const fg__unstructured *mesh, const fg__variable *v)
 {
   const fg__attribute *units = fg__attribute_find(v, "units");

@@ -323,6 +323,7 @@ static fg_context *stopped;
 static void stop(int number)
 {
   (void)number;
+  /* it may be called from a handler (context.h): NOLINTNEXTLINE */
   fg_context_stop(stopped);
 }
 

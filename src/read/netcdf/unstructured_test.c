@@ -1,8 +1,8 @@
 /* Unstructured meshes as models write them, each with its own names, made of one lattice
  * of quads on the sphere, some divided into triangles, and one flow: what is read is that
  * flow, to the error of interpolation, which falls with the square of the spacing. */
-#include "sample/unstructured/mesh.h"
 #include "read/netcdf/mesh_example.h"
+#include "sample/unstructured/mesh.h"
 
 static void assert_rule(sample_file *f, const char *words)
 {
