@@ -228,7 +228,9 @@ int fg__direction_among(fg__polar *out, const fg__term *a, const fg__term *b)
   const bool way[2] = {
       fg__direction_read(&of[0], a) || (is_synoptic(a, 0) && is_synoptic(b, 1)),
       fg__direction_read(&of[1], b) || (is_synoptic(b, 0) && is_synoptic(a, 1))};
-  *out = way[0] == way[1] ? (fg__polar){0} : of[way[1]];
+  *out = of[way[1]];
+  if (way[0] == way[1])
+    *out = (fg__polar){0};
   return way[0] == way[1] ? -1 : way[1];
 }
 
