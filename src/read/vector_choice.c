@@ -105,6 +105,14 @@ static fg_status choose(fg__vector_choice *c, fg_context *context,
   return status;
 }
 
+/* Whether the choice holds for a time: where a table's rows have times and levels, each
+ * time has levels of its own. */
+static bool is_of_time(const fg__vector_choice *c, int time)
+{
+  const fg__unstructured *mesh = c->grid.unstructured;
+  return time == c->time || !mesh || !mesh->rows_time.value || !mesh->rows_level.variable;
+}
+
 fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
                                   const fg__dataset_format *format,
                                   const fg__source *source,
@@ -114,6 +122,10 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
   fg__kept *kept = format->open_chosen ? NULL : source->kept;
   fg__vector_choice *c = kept ? kept->data : NULL;
   *out = NULL;
+  if (c && !is_of_time(c, options->time)) {
+    close_choice(c);
+    c = kept->data = NULL;
+  }
   if (!c) {
     c = fg__allocate(1, sizeof *c);
     if (!c)
@@ -124,6 +136,7 @@ fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
       return status;
     }
     c->is_kept = kept != NULL;
+    c->time = options->time;
     if (kept)
       *kept = (fg__kept){c, close_choice};
   }

@@ -10,6 +10,7 @@ typedef struct fg__vector_choice {
   fg__pair pair;
   fg__grid grid;
   bool is_kept;                  /* for later calls */
+  int time;                      /* for which it was chosen */
   char doubts[FG__REASON_BYTES]; /* of the grid, before samples are read */
 } fg__vector_choice;
 

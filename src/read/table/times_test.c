@@ -128,6 +128,38 @@ static void levels_are_chosen(void **state)
   fg_context_clear(*state);
 }
 
+/* What is kept of one time is not taken for another, whose levels differ. */
+static void each_time_has_its_own_levels(void **state)
+{
+  enum { TIMES = 2, LEVELS = 2, NX = 3, NY = 2 };
+  static const char *const words[TIMES][LEVELS] = {{"level 10", "level 20"},
+                                                   {"level 15", "level 25"}};
+  char text[2048];
+  size_t used = (size_t)snprintf(text, sizeof text, "time,level,x,y,u,v\n");
+  for (int n = 0; n < TIMES * LEVELS * NX * NY; ++n) {
+    const int place = n % (NX * NY), level = n / (NX * NY) % LEVELS,
+              time = n / (NX * NY * LEVELS);
+    used += (size_t)snprintf(text + used, sizeof text - used, "%d,%d,%d,%d,%d,1\n", time,
+                             10 + 10 * level + 5 * time, place % NX, place / NX, n + 1);
+  }
+  fg__kept kept = {NULL, NULL};
+  fg__source source = source_of(text);
+  source.kept = &kept;
+  for (int turn = 0; turn < 2; ++turn)
+    for (int n = 0; n < TIMES * LEVELS; ++n) {
+      fg_field *field = NULL;
+      const fg_read_options options = {.time = n / LEVELS, .level = n % LEVELS};
+      assert_int_equal(fg__format_table.read(&field, *state, &source, &options,
+                                             (fg__slab_index){0, 1}),
+                       FG_STATUS_OK);
+      assert_string_equal(fg_field_contents(field)->level,
+                          words[options.time][options.level]);
+      assert_true(fg_field_contents(field)->velocity[0][0] == (float)(1 + n * NX * NY));
+      fg_field_destroy(field);
+    }
+  kept.close(kept.data);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -135,6 +167,7 @@ int main(void)
       cmocka_unit_test(dates_are_chosen),
       cmocka_unit_test(levels_are_told_by_their_scatter),
       cmocka_unit_test(levels_are_chosen),
+      cmocka_unit_test(each_time_has_its_own_levels),
   };
   return cmocka_run_group_tests(tests, context_set_up, context_tear_down);
 }
