@@ -19,7 +19,8 @@ typedef struct row {
 static const fg__foreign *find(const row *r,
                                const fg__foreign *(*look)(const unsigned char *, size_t))
 {
-  unsigned char bytes[BYTES] = {0};
+  static unsigned char bytes[BYTES];
+  memset(bytes, 0, sizeof bytes);
   memcpy(bytes + r->offset, r->bytes, strlen(r->bytes));
   return look(bytes, sizeof bytes);
 }

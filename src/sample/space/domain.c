@@ -44,10 +44,11 @@ static fg_status find_descending(fg__space_domain *domain, const fg__dataset *da
 {
   for (int k = 0; k < domain->dimension; ++k) {
     const fg__variable *v = &data->variables[data->space.axis[domain->axis[k]]];
+    const size_t begin = 0, end = domain->size[k] - 1;
     double first, last;
-    fg_status status = fg__variable_fetch_one(v, &(size_t){0}, &first);
+    fg_status status = fg__variable_fetch_one(v, &begin, &first);
     if (status == FG_STATUS_OK)
-      status = fg__variable_fetch_one(v, &(size_t){domain->size[k] - 1}, &last);
+      status = fg__variable_fetch_one(v, &end, &last);
     if (status != FG_STATUS_OK)
       return status;
     domain->descends[k] = last < first;

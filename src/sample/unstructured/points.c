@@ -224,7 +224,7 @@ static fg_status make_scatter(fg__scatter *out, size_t *missing,
   const size_t count = r->grid->samples;
   const fg__decoder *decoder = r->data->file[mesh->node[0]->file].decoder;
   double *velocity[3] = {NULL, NULL, NULL};
-  unsigned char *valid = fg__allocate(2 * count, 1), *kept = valid + count;
+  unsigned char *valid = fg__allocate(2 * count, 1), *kept = valid ? valid + count : NULL;
   *out = (fg__scatter){.context = r->data->context,
                        .path = r->data->file[0].path,
                        .count = count,
