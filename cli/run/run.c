@@ -358,9 +358,10 @@ int command_run(const void *given)
     settings.reading.time = places.time.index[0];
     settings.reading.level = places.level.index[0];
     code = ranks_agree(ranks_leader() ? series_refuse(settings.output) : EXIT_DONE);
-    if (!code)
+    if (!code) {
       code = run_once(&settings, places.input);
-    places.input = NULL;
+      places.input = NULL;
+    }
   }
   places_clear(&places);
   return code;
