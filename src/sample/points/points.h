@@ -26,7 +26,7 @@ void fg__scatter_clear(fg__scatter *points);
 /* The words of a field whose points may turn out to lie in a plane. */
 typedef struct fg__flat_words {
   fg_field_arrays all;
-  char level[160];
+  char level[192];
 } fg__flat_words;
 
 /* Points in space that lie in one plane become points in 2D: of two of the axes as they
