@@ -128,7 +128,8 @@ static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
 static fg_status list(fg_inventory *inventory, fg_context *context,
                       const fg__source *source)
 {
-  static const fg_axis_value level[] = {{850.0, "hPa", "850 hPa"}, {NAN, "", "top"}};
+  static const fg_axis_value level[] = {{850.0, "hPa", "850 hPa"},
+                                        {(double)NAN, "", "top"}};
   (void)source;
   fg_inventory_vector vector = {.components = 2,
                                 .name = {"u", "v"},
