@@ -38,21 +38,10 @@ fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* The greatest or least number of a component, how often it occurs, and the next one. */
-typedef struct extreme {
-  float value, next;
-  size_t count;
-} extreme;
-
-typedef struct extremes {
-  extreme low, high;
-  size_t count; /* of numbers */
-} extremes;
-
-static void take_low(extreme *e, float value)
+static void take_low(fg__extreme *e, float value)
 {
   if (value < e->value) {
-    *e = (extreme){value, e->value, 1};
+    *e = (fg__extreme){value, e->value, 1};
   } else if (value > e->value) {
     e->next = value;
   } else {
@@ -60,10 +49,10 @@ static void take_low(extreme *e, float value)
   }
 }
 
-static void take_high(extreme *e, float value)
+static void take_high(fg__extreme *e, float value)
 {
   if (value > e->value) {
-    *e = (extreme){value, e->value, 1};
+    *e = (fg__extreme){value, e->value, 1};
   } else if (value < e->value) {
     e->next = value;
   } else {
@@ -79,21 +68,33 @@ static bool is_present(const fg__raw_samples *s, size_t i)
   return present;
 }
 
-/* Of the samples that all components have. */
-static extremes find_extremes(const fg__raw_samples *s, int k)
+void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples)
 {
-  extremes e = {{INFINITY, INFINITY, 0}, {-INFINITY, -INFINITY, 0}, 0};
-  for (size_t i = 0; i < s->count; ++i) {
-    const float value = s->component[k][i];
-    if (!is_present(s, i))
-      continue;
-    ++e.count;
-    if (value < e.low.next)
-      take_low(&e.low, value);
-    if (value > e.high.next)
-      take_high(&e.high, value);
+  for (int k = 0; k < samples->components && extremes->count == 0; ++k) {
+    extremes->low[k] = (fg__extreme){INFINITY, INFINITY, 0};
+    extremes->high[k] = (fg__extreme){-INFINITY, -INFINITY, 0};
   }
-  return e;
+  for (size_t i = 0; i < samples->count; ++i) {
+    if (!is_present(samples, i))
+      continue;
+    ++extremes->count;
+    for (int k = 0; k < samples->components; ++k) {
+      const float value = samples->component[k][i];
+      if (value <= extremes->low[k].value || value < extremes->low[k].next)
+        take_low(&extremes->low[k], value);
+      if (value >= extremes->high[k].value || value > extremes->high[k].next)
+        take_high(&extremes->high[k], value);
+    }
+  }
+}
+
+bool fg__extremes_are_suspect(const fg__extremes *extremes, int components)
+{
+  bool suspect = false;
+  for (int k = 0; k < components && extremes->count > 0; ++k)
+    suspect = suspect || extremes->low[k].value <= -SMALLEST_CODE ||
+              extremes->high[k].value >= SMALLEST_CODE;
+  return suspect;
 }
 
 /* Numbers that programs write for missing data and that may be near to other values:
@@ -113,7 +114,7 @@ static bool is_customary(float value)
 
 /* Whether an extreme stands for missing data; `other` is the opposite end of all others.
  */
-static bool is_code(const extreme *e, float other)
+static bool is_code(const fg__extreme *e, float other)
 {
   if (e->count < 2 || !(fabsf(e->value) >= SMALLEST_CODE) || !isfinite(e->next))
     return false;
@@ -126,42 +127,47 @@ static bool is_code(const extreme *e, float other)
 }
 
 static fg_status refuse(fg_context *context, const fg__raw_samples *s, int k,
-                        const extreme *e, const extremes *all, float other)
+                        const fg__extreme *e, size_t all, float other)
 {
   const double a = (double)e->next, b = (double)other;
   fg__fail(context, FG_STATUS_ARGUMENT,
            "%s: '%.100s' is %.7g at %zu of %zu samples (%.2g %%) and otherwise from %.4g "
            "to %.4g: missing data that the file does not declare",
-           s->path, s->name[k], (double)e->value, e->count, all->count,
-           100.0 * (double)e->count / (double)all->count, fmin(a, b), fmax(a, b));
+           s->path, s->name[k], (double)e->value, e->count, all,
+           100.0 * (double)e->count / (double)all, fmin(a, b), fmax(a, b));
   fg__hint(context,
            "--missing=%.7g takes it for missing; --missing none takes it for a value",
            (double)e->value);
   return FG_STATUS_ARGUMENT;
 }
 
-bool fg__missing_is_suspect(const fg__raw_samples *samples)
-{
-  for (int k = 0; k < samples->components; ++k)
-    for (size_t i = 0; i < samples->count; ++i)
-      if (fabsf(samples->component[k][i]) >= SMALLEST_CODE)
-        return true;
-  return false;
-}
-
-fg_status fg__missing_settle(fg_context *context, const fg__raw_samples *samples,
-                             const fg__missing_numbers *given)
+void fg__missing_mask(const fg__raw_samples *samples, const fg__missing_numbers *given)
 {
   for (int k = 0; k < samples->components && given->count > 0; ++k)
     for (size_t i = 0; i < samples->count; ++i)
       if (fg__is_given_missing(given, (double)samples->component[k][i]))
         samples->component[k][i] = NAN;
-  for (int k = 0; k < samples->components && !given->none; ++k) {
-    const extremes all = find_extremes(samples, k);
-    if (is_code(&all.high, all.low.value))
-      return refuse(context, samples, k, &all.high, &all, all.low.value);
-    if (is_code(&all.low, all.high.value))
-      return refuse(context, samples, k, &all.low, &all, all.high.value);
+}
+
+fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
+                             const fg__raw_samples *samples,
+                             const fg__missing_numbers *given)
+{
+  for (int k = 0; k < samples->components && extremes->count > 0 && !given->none; ++k) {
+    const fg__extreme *low = &extremes->low[k], *high = &extremes->high[k];
+    if (is_code(high, low->value))
+      return refuse(context, samples, k, high, extremes->count, low->value);
+    if (is_code(low, high->value))
+      return refuse(context, samples, k, low, extremes->count, high->value);
   }
   return FG_STATUS_OK;
+}
+
+fg_status fg__missing_settle(fg_context *context, const fg__raw_samples *samples,
+                             const fg__missing_numbers *given)
+{
+  fg__extremes extremes = {.count = 0};
+  fg__missing_mask(samples, given);
+  fg__extremes_add(&extremes, samples);
+  return fg__missing_decide(context, &extremes, samples, given);
 }

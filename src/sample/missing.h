@@ -19,14 +19,35 @@ typedef struct fg__raw_samples {
 fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
                            const char *missing);
 
-/* Whether any of the samples is as large as numbers that stand for missing data are: of
- * rows of a field all rows then decide. */
-bool fg__missing_is_suspect(const fg__raw_samples *samples);
+/* Makes samples NaN that are one of the given numbers. */
+void fg__missing_mask(const fg__raw_samples *samples, const fg__missing_numbers *given);
 
-/* Makes samples NaN that are one of the given numbers; then refuses a component where one
- * number recurs that lies apart from all others, as -9999 or 1e20, unless none is
- * missing: the message has its name, its share and the option that decides. FILE_FORMAT.
- */
+/* The greatest or least number of a component, how often it occurs, and the next one. */
+typedef struct fg__extreme {
+  float value, next;
+  size_t count;
+} fg__extreme;
+
+/* The ends of each component's values, in all parts of a field that were looked at. */
+typedef struct fg__extremes {
+  fg__extreme low[3], high[3];
+  size_t count; /* of samples that have all components; 0: begin */
+} fg__extremes;
+
+void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples);
+
+/* Whether values are as large as numbers that stand for missing data are: only then a
+ * look at all parts could find one. */
+bool fg__extremes_are_suspect(const fg__extremes *extremes, int components);
+
+/* Refuses a component where one number recurs that lies apart from all others, as -9999
+ * or 1e20, unless none is missing: the message has its name, its share and the option
+ * that decides. Of `samples` path and names count. ARGUMENT. */
+fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
+                             const fg__raw_samples *samples,
+                             const fg__missing_numbers *given);
+
+/* All of this for samples that are there whole. */
 fg_status fg__missing_settle(fg_context *context, const fg__raw_samples *samples,
                              const fg__missing_numbers *given);
 

@@ -48,7 +48,8 @@ typedef struct source {
   const fg__grid *grid;
   const fg__rows *rows;
   size_t time, level;
-  const char *mask; /* NULL: none is named */
+  const char *mask;       /* NULL: none is named */
+  fg__extremes *extremes; /* of parts, to decide by once all are read; NULL: none */
 } source;
 
 /* The means of both faces; a missing face beside a present one is a wall (0). Returns the
@@ -178,48 +179,96 @@ static fg_status read_mask(fg__velocity_samples *out, const source *from,
   return status;
 }
 
-static fg_status read_settled(fg__velocity_samples *out, const source *from,
-                              const char *mask);
+enum { AT_ONCE = 1 << 22 }; /* samples in memory while all rows are looked at */
 
-/* What some rows may hold all rows decide, so that every part of a field is refused where
- * the whole is. */
-static fg_status settle_whole(const source *from)
+static int rows_at_once(const fg__grid *grid)
 {
-  const int all = (int)from->grid->axis[from->grid->dimension - 1].size;
-  const fg__rows rows = {0, all, all};
-  source whole = *from;
-  fg__velocity_samples samples = {0};
-  whole.rows = &rows;
-  const fg_status status = read_settled(&samples, &whole, from->mask);
-  fg__velocity_samples_clear(&samples);
-  return status;
+  const size_t row = row_size(grid);
+  return row < AT_ONCE ? (int)(AT_ONCE / row) : 1;
 }
 
-static fg_status settle_missing(const fg__velocity_samples *out, const source *from)
-{
-  fg__raw_samples raw = {.path = from->data->file[0].path,
-                         .components = from->grid->dimension,
-                         .count = row_size(from->grid) * (size_t)from->rows->held,
-                         .valid = out->valid};
-  for (int k = 0; k < raw.components; ++k) {
-    raw.name[k] = from->pair->component[k]->plain_name;
-    raw.component[k] = out->velocity[k];
-  }
-  const size_t all = from->grid->axis[from->grid->dimension - 1].size;
-  if ((size_t)from->rows->own == all || from->data->missing.none)
-    return fg__missing_settle(from->data->context, &raw, &from->data->missing);
-  return fg__missing_is_suspect(&raw) ? settle_whole(from) : FG_STATUS_OK;
-}
-
-static fg_status read_settled(fg__velocity_samples *out, const source *from,
-                              const char *mask)
+/* Components and mask as the file has them. */
+static fg_status read_raw(fg__velocity_samples *out, const source *from)
 {
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < from->grid->dimension && status == FG_STATUS_OK; ++k)
     status = read_component(out, from, k);
-  if (status == FG_STATUS_OK && (mask || from->grid->hidden))
-    status = read_mask(out, from, mask);
-  return status == FG_STATUS_OK ? settle_missing(out, from) : status;
+  return status == FG_STATUS_OK && (from->mask || from->grid->hidden)
+             ? read_mask(out, from, from->mask)
+             : status;
+}
+
+static fg__raw_samples raw_of(const fg__velocity_samples *samples, const source *from)
+{
+  fg__raw_samples raw = {.path = from->data->file[0].path,
+                         .components = from->grid->dimension,
+                         .count = row_size(from->grid) * (size_t)from->rows->held,
+                         .valid = samples->valid};
+  for (int k = 0; k < raw.components; ++k) {
+    raw.name[k] = from->pair->component[k]->plain_name;
+    raw.component[k] = samples->velocity[k];
+  }
+  return raw;
+}
+
+/* All rows, some at a time. */
+static fg_status look_at_all(fg__extremes *out, const source *from)
+{
+  const int all = (int)from->grid->axis[from->grid->dimension - 1].size;
+  const int once = rows_at_once(from->grid);
+  fg_status status = FG_STATUS_OK;
+  *out = (fg__extremes){.count = 0};
+  for (int first = 0; first < all && status == FG_STATUS_OK; first += once) {
+    const int own = all - first < once ? all - first : once;
+    const fg__rows rows = {first, own, own};
+    source part = *from;
+    fg__velocity_samples samples = {0};
+    part.rows = &rows;
+    status = read_raw(&samples, &part);
+    if (status == FG_STATUS_OK) {
+      const fg__raw_samples raw = raw_of(&samples, &part);
+      fg__missing_mask(&raw, &from->data->missing);
+      fg__extremes_add(out, &raw);
+    }
+    fg__velocity_samples_clear(&samples);
+  }
+  return status;
+}
+
+/* What some rows may hold all rows decide, so that every part of a field is refused where
+ * the whole is. Where a caller looks at all parts it decides. */
+static fg_status settle_missing(const fg__velocity_samples *out, const source *from)
+{
+  const fg__dataset *data = from->data;
+  const fg__raw_samples raw = raw_of(out, from);
+  fg__extremes own = {.count = 0}, *extremes = from->extremes ? from->extremes : &own;
+  fg_status status = FG_STATUS_OK;
+  fg__missing_mask(&raw, &data->missing);
+  fg__extremes_add(extremes, &raw);
+  if (from->extremes || data->missing.none)
+    return FG_STATUS_OK;
+  if ((size_t)from->rows->own < from->grid->axis[from->grid->dimension - 1].size &&
+      fg__extremes_are_suspect(extremes, raw.components))
+    status = look_at_all(extremes, from);
+  return status == FG_STATUS_OK
+             ? fg__missing_decide(data->context, extremes, &raw, &data->missing)
+             : status;
+}
+
+static fg_status read_samples(fg__velocity_samples *out, const source *from)
+{
+  const size_t count = row_size(from->grid) * (size_t)from->rows->held;
+  *out = (fg__velocity_samples){0};
+  fg_status status = read_raw(out, from);
+  if (status == FG_STATUS_OK)
+    status = settle_missing(out, from);
+  if (status == FG_STATUS_OK)
+    status = fg__polar_turn_all(from->data->context, out->velocity, count,
+                                &from->pair->polar, from->data->file[0].path,
+                                from->pair->component[1]->plain_name);
+  if (status == FG_STATUS_OK && from->grid->faces.used)
+    close_walls(out->velocity, count);
+  return status;
 }
 
 fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset *data,
@@ -227,16 +276,8 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
                                     const fg__rows *rows, size_t time, size_t level,
                                     const char *mask)
 {
-  const source from = {data, pair, grid, rows, time, level, mask};
-  *out = (fg__velocity_samples){0};
-  fg_status status = read_settled(out, &from, mask);
-  if (status == FG_STATUS_OK)
-    status = fg__polar_turn_all(data->context, out->velocity,
-                                row_size(grid) * (size_t)rows->held, &pair->polar,
-                                data->file[0].path, pair->component[1]->plain_name);
-  if (status == FG_STATUS_OK && grid->faces.used)
-    close_walls(out->velocity, row_size(grid) * (size_t)rows->held);
-  return status;
+  const source from = {data, pair, grid, rows, time, level, mask, NULL};
+  return read_samples(out, &from);
 }
 
 void fg__velocity_samples_clear(fg__velocity_samples *samples)
@@ -247,13 +288,12 @@ void fg__velocity_samples_clear(fg__velocity_samples *samples)
   *samples = (fg__velocity_samples){0};
 }
 
-enum { COUNTED_AT_ONCE = 1 << 22 }; /* samples in memory while missing ones are counted */
-
 fg_status fg__velocity_missing(double *share, const fg__dataset *data,
                                const fg__pair *pair, const fg__grid *grid)
 {
   const size_t all = grid->axis[grid->dimension - 1].size, row = grid->samples / all;
-  const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
+  const size_t most = (size_t)rows_at_once(grid);
+  fg__extremes extremes = {.count = 0};
   const fg_read_options at = fg__first_samples(pair, grid);
   size_t count = 0;
   fg_status status = FG_STATUS_OK;
@@ -261,8 +301,12 @@ fg_status fg__velocity_missing(double *share, const fg__dataset *data,
     const int own = (int)(all - first < most ? all - first : most);
     const fg__rows rows = {(int)first, own, own};
     fg__velocity_samples read = {0};
-    status = fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)at.time,
-                                       (size_t)at.level, NULL);
+    const source from = {data, pair,     grid, &rows, (size_t)at.time, (size_t)at.level,
+                         NULL, &extremes};
+    status = read_samples(&read, &from);
+    const fg__raw_samples raw = raw_of(&read, &from);
+    if (status == FG_STATUS_OK && first + most >= all)
+      status = fg__missing_decide(data->context, &extremes, &raw, &data->missing);
     for (size_t i = 0; i < row * (size_t)own && status == FG_STATUS_OK; ++i) {
       bool missing = read.valid && !read.valid[i];
       for (int k = 0; k < grid->dimension; ++k)

@@ -127,7 +127,8 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
   if (status == FG_STATUS_OK)
     status = create_axes(axis, data, domain);
   if (status == FG_STATUS_OK)
-    status = fg__space_samples(velocity, data, pair, grid, &range, options->mask, plane);
+    status =
+        fg__space_samples(velocity, data, pair, grid, &range, options->mask, plane, NULL);
   for (size_t i = 0; plane && i < row * range.count && status == FG_STATUS_OK; ++i)
     add_squares(sum, velocity, i);
   /* parts of the plane are refused for this, too: they are zero everywhere */
@@ -156,10 +157,12 @@ fg_status fg__space_count(fg_inventory_vector *vector, const fg__dataset *data,
   const size_t most = row < COUNTED_AT_ONCE ? COUNTED_AT_ONCE / row : 1;
   double sum[2] = {0.0, 0.0};
   size_t missing = 0;
+  bool is_settled = false;
   for (size_t first = 0; first < all; first += most) {
     float *velocity[3];
     const fg__row_range some = {first, all - first < most ? all - first : most};
-    fg_status status = fg__space_samples(velocity, data, pair, grid, &some, NULL, normal);
+    fg_status status =
+        fg__space_samples(velocity, data, pair, grid, &some, NULL, normal, &is_settled);
     if (status != FG_STATUS_OK)
       return status;
     for (size_t i = 0; i < row * some.count; ++i) {

@@ -54,6 +54,7 @@ typedef struct request {
   meaning *means;
   unsigned bits;
   fg__row_range rows;
+  bool *is_settled; /* fg__space_samples */
 } request;
 
 /* The numbers that are read for that, which may be more than those wanted: a point takes
@@ -247,40 +248,54 @@ static bool is_hiding(const fg__variable *v)
   return v->element < 2 && fg__attribute_find(v, "hiding_bits");
 }
 
-static fg_status read_whole(const request *r);
-
-/* Missing numbers that the file does not declare; where it hides samples, it does. Of
- * some rows that may hold such a number all rows decide. */
-static fg_status settle_missing(float *samples[3], const request *r, size_t count)
+static fg__raw_samples raw_of(float *const samples[3], const request *r, size_t count)
 {
-  fg__missing_numbers given = r->data->missing;
-  for (size_t n = 0; n < r->data->variable_count && given.count == 0; ++n)
-    given.none = given.none || is_hiding(&r->data->variables[n]);
   fg__raw_samples raw = {
       .path = r->data->file[0].path, .components = r->count, .count = count};
   for (int k = 0; k < r->count; ++k) {
     raw.name[k] = r->variable[k]->name;
     raw.component[k] = samples[k];
   }
-  const size_t all = r->domain->size[r->domain->dimension - 1];
-  if (r->domain->cells || r->rows.count == all || given.none)
-    return fg__missing_settle(r->data->context, &raw, &given);
-  return fg__missing_is_suspect(&raw) ? read_whole(r) : FG_STATUS_OK;
+  return raw;
 }
 
-/* Reads all rows, only to settle what is missing in them. */
-static fg_status read_whole(const request *r)
+/* All rows at once, since those of cells' numbers overlap. */
+static fg_status settle_all(const request *r, const fg__missing_numbers *given)
 {
   request whole = *r;
   float *samples[3] = {NULL, NULL, NULL};
   whole.rows = (fg__row_range){0, r->domain->size[r->domain->dimension - 1]};
   const box b = box_of(&whole);
   fg_status status = read_box(samples, &whole, &b);
-  if (status == FG_STATUS_OK)
-    status = settle_missing(samples, &whole, b.size[0] * b.size[1] * b.size[2]);
+  if (status == FG_STATUS_OK) {
+    const fg__raw_samples raw =
+        raw_of(samples, &whole, b.size[0] * b.size[1] * b.size[2]);
+    status = fg__missing_settle(r->data->context, &raw, given);
+  }
   for (int k = 0; k < 3; ++k)
     free(samples[k]);
   return status;
+}
+
+/* Missing numbers that the file does not declare; where it hides samples, it does. Of
+ * some rows that may hold such a number all rows decide, once for all parts. */
+static fg_status settle_missing(float *samples[3], const request *r, size_t count)
+{
+  fg__missing_numbers given = r->data->missing;
+  for (size_t n = 0; n < r->data->variable_count && given.count == 0; ++n)
+    given.none = given.none || is_hiding(&r->data->variables[n]);
+  const fg__raw_samples raw = raw_of(samples, r, count);
+  if (r->domain->cells || r->rows.count == r->domain->size[r->domain->dimension - 1])
+    return fg__missing_settle(r->data->context, &raw, &given);
+  fg__extremes extremes = {.count = 0};
+  fg__missing_mask(&raw, &given);
+  fg__extremes_add(&extremes, &raw);
+  if (given.none || (r->is_settled && *r->is_settled) ||
+      !fg__extremes_are_suspect(&extremes, raw.components))
+    return FG_STATUS_OK;
+  if (r->is_settled)
+    *r->is_settled = true;
+  return settle_all(r, &given);
 }
 
 /* Reads the variables onto the wanted rows' points. With `any`, the first result stands
@@ -421,11 +436,11 @@ static void reverse_axes(float *samples, const fg__space_domain *domain, size_t 
 
 fg_status fg__space_samples(float *out[3], const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg__row_range *rows,
-                            const char *mask, bool normal)
+                            const char *mask, bool normal, bool *is_settled)
 {
   const fg__space_domain *domain = grid->domain;
   const int last = domain->dimension - 1;
-  request r = {.data = data, .domain = domain, .rows = *rows};
+  request r = {.data = data, .domain = domain, .rows = *rows, .is_settled = is_settled};
   if (domain->descends[last])
     r.rows.first = domain->size[last] - rows->first - rows->count;
   out[0] = out[1] = out[2] = NULL;

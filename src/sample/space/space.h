@@ -28,10 +28,12 @@ size_t fg__space_domain_row(const fg__space_domain *domain); /* samples of one *
  * CellDataToPointData); NaN where anything that goes into it is missing, hidden, or not
  * positive in the variable `mask` (a vector: zero), which may be NULL. With `normal`, of
  * three components in a plane that normal to it becomes out[2]. End them with free; those
- * beyond the dimension are NULL otherwise. ARGUMENT (the mask), FILE_FORMAT, MEMORY. */
+ * beyond the dimension are NULL otherwise. *is_settled becomes whether all rows were
+ * looked at for missing numbers that are not declared, so that calls for other rows need
+ * not; NULL: there are none. ARGUMENT (the mask, such a number), FILE_FORMAT, MEMORY. */
 fg_status fg__space_samples(float *out[3], const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg__row_range *rows,
-                            const char *mask, bool normal);
+                            const char *mask, bool normal, bool *is_settled);
 
 /* field.c. The field that options choose; and of a vector in an inventory components,
  * size, bounds, names of axes and cells, and the share of missing samples and of the

@@ -24,6 +24,12 @@ fg_status fg__mesh_topology_read(fg__mesh_topology *out, const fg__dataset *data
                                  const fg__unstructured *mesh);
 void fg__mesh_topology_clear(fg__mesh_topology *faces);
 
+/* read.c. The mask of that name, or (NULL) the one that the file has for its mesh: *out
+ * is NULL without. *grid gets its place on the mesh. ARGUMENT. */
+fg_status fg__mesh_mask_find(const fg__variable **out, fg__grid *grid,
+                             const fg__dataset *data, const fg__pair *pair,
+                             const fg__unstructured *mesh, const char *name);
+
 /* nodes.c. Corners of cells, in degrees, given one after the other, become nodes: those
  * at one place are one. */
 typedef struct fg__node_table {

@@ -114,20 +114,13 @@ static fg_status settle(fg__scatter *out, double *const velocity[3],
 static fg_status apply_mask(unsigned char *valid, double *mask, const fg__mesh_request *r)
 {
   const fg__unstructured *mesh = r->grid->unstructured;
-  const char *name = r->options->mask;
-  const fg__variable *v = name ? fg__dataset_find(r->data, name) : mesh->wet;
-  fg__grid grid = {0};
+  const fg__variable *v;
+  fg__grid grid;
   fg__missing_counts missing = {0};
-  if (!v && !name)
-    return FG_STATUS_OK;
-  if (!v)
-    return fg__fail(r->data->context, FG_STATUS_ARGUMENT,
-                    "%s: has no variable '%s' for the mask", r->data->file[0].path, name);
-  if (!fg__is_array(v) || v->rank >= FG__RANK ||
-      !fg__unstructured_axis(&grid, r->data, v, mesh))
-    return fg__fail(r->data->context, FG_STATUS_ARGUMENT,
-                    "%s: the mask '%s' does not lie on the mesh of '%s'", v->path,
-                    v->name, r->pair->component[0]->name);
+  const fg_status found =
+      fg__mesh_mask_find(&v, &grid, r->data, r->pair, mesh, r->options->mask);
+  if (found != FG_STATUS_OK || !v)
+    return found;
   const bool dry = v == mesh->wet && mesh->wet_is_zero;
   const fg_status status = read_places(mask, r, v, &grid, &missing);
   for (size_t n = 0; n < grid.samples && status == FG_STATUS_OK; ++n)

@@ -58,24 +58,34 @@ static fg_status read_values(float **out, const request *r, const fg__variable *
   return status;
 }
 
+fg_status fg__mesh_mask_find(const fg__variable **out, fg__grid *grid,
+                             const fg__dataset *data, const fg__pair *pair,
+                             const fg__unstructured *mesh, const char *name)
+{
+  const fg__variable *v = *out = name ? fg__dataset_find(data, name) : mesh->wet;
+  *grid = (fg__grid){0};
+  if (!v && name)
+    return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                    "%s: has no variable '%s' for the mask", data->file[0].path, name);
+  if (v && (!fg__is_array(v) || v->rank >= FG__RANK ||
+            !fg__unstructured_axis(grid, data, v, mesh)))
+    return fg__fail(data->context, FG_STATUS_ARGUMENT,
+                    "%s: the mask '%s' does not lie on the mesh of '%s'", v->path,
+                    v->name, pair->component[0]->name);
+  return FG_STATUS_OK;
+}
+
 /* Takes out vectors where a mask is 0, or 1 where that means land, or missing. */
 static fg_status apply_mask(float *velocity, const request *r)
 {
   const fg__unstructured *mesh = r->grid->unstructured;
-  const char *name = r->options->mask;
-  const fg__variable *v = name ? fg__dataset_find(r->data, name) : mesh->wet;
-  fg__grid grid = {0};
+  const fg__variable *v;
+  fg__grid grid;
   float *mask = NULL;
-  if (!v && !name)
-    return FG_STATUS_OK;
-  if (!v)
-    return fg__fail(r->data->context, FG_STATUS_ARGUMENT,
-                    "%s: has no variable '%s' for the mask", r->data->file[0].path, name);
-  if (!fg__is_array(v) || v->rank >= FG__RANK ||
-      !fg__unstructured_axis(&grid, r->data, v, mesh))
-    return fg__fail(r->data->context, FG_STATUS_ARGUMENT,
-                    "%s: the mask '%s' does not lie on the mesh of '%s'", v->path,
-                    v->name, r->pair->component[0]->name);
+  const fg_status found =
+      fg__mesh_mask_find(&v, &grid, r->data, r->pair, mesh, r->options->mask);
+  if (found != FG_STATUS_OK || !v)
+    return found;
   const bool wet = v == mesh->wet && mesh->wet_is_zero;
   const fg_status status = read_values(&mask, r, v, &grid, true);
   for (size_t n = 0; n < grid.samples && status == FG_STATUS_OK; ++n)
