@@ -4,6 +4,7 @@
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
+#include "sample/gap_lines.h"
 #include "sample/layers.h"
 #include "sample/missing.h"
 #include "sample/space/space.h"
@@ -64,6 +65,22 @@ static bool has_two_layers(const fg__grid *grid)
          (grid->axis[0].size == 2 || grid->axis[1].size == 2 || grid->axis[2].size == 2);
 }
 
+/* Says how many gaps there are along the axes of a grid; returns that. */
+static size_t name_gaps(char doubts[FG__REASON_BYTES], const fg__grid *grid)
+{
+  size_t gaps = 0;
+  for (int k = 0; k < grid->dimension; ++k)
+    if (grid->axis[k].coordinate)
+      gaps += fg__axis_gaps(grid->axis[k].coordinate, grid->axis[k].size);
+  if (gaps > 0)
+    fg__doubt(
+        doubts,
+        "nothing is interpolated over %zu gap%s along its axes, more than 4.5 times as "
+        "wide as the intervals beside",
+        gaps, gaps > 1 ? "s" : "");
+  return gaps;
+}
+
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                             const fg__grid *grid, const fg_read_options *options,
                             fg__slab_index slab)
@@ -72,7 +89,11 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
   const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
-  if (last->period > 0.0 || has_two_layers(grid))
+  char doubts[FG__REASON_BYTES];
+  double *axis[3] = {NULL, NULL, NULL}; /* with lines in gaps */
+  memcpy(doubts, grid->doubts, sizeof doubts);
+  const bool gaps = name_gaps(doubts, grid) > 0;
+  if (last->period > 0.0 || has_two_layers(grid) || gaps)
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
   fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
@@ -95,7 +116,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
                               .title = words.title,
                               .time = words.time[0] ? words.time : NULL,
                               .level = words.level[0] ? words.level : NULL,
-                              .doubts = grid->doubts[0] ? grid->doubts : NULL};
+                              .doubts = doubts[0] ? doubts : NULL};
     if (!arrays.projection && fg__map_is_asked(options->map))
       arrays.projection = fg__axes_plane(plane, pair->component[0], grid);
     for (int k = 0; k < grid->dimension; ++k) {
@@ -107,11 +128,17 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
-    status = fg__field_of_rows(out, data->context, &arrays, read.velocity, &slab);
+    if (gaps)
+      status =
+          fg__gap_lines_insert(&arrays, read.velocity, &read.valid, axis, data->context);
+    if (status == FG_STATUS_OK)
+      status = fg__field_of_rows(out, data->context, &arrays, read.velocity, &slab);
     if (status == FG_STATUS_OK && slab.count > 1)
       keep_missing(*out, &read);
   }
   fg__velocity_samples_clear(&read);
+  for (int k = 0; k < 3; ++k)
+    free(axis[k]);
   return status == FG_STATUS_OK && has_two_layers(grid)
              ? fg__drop_layer(out, data->context)
              : status;
@@ -318,8 +345,10 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
-  if (on_axes)
+  if (on_axes) {
     describe_axes(&vector, grid);
+    name_gaps(grid->doubts, grid);
+  }
   if (grid->domain && status == FG_STATUS_OK)
     status = fg__space_describe(&vector, data, pair, grid);
   if (grid->unusable[0]) {

@@ -20,7 +20,8 @@ static const double EAST = 2.0, NORTH = -1.0, FIRST_LONGITUDE = 200.0,
 typedef enum layout {
   PLAIN,  /* columns run east, rows north */
   TURNED, /* columns run south, rows east; components along them, with their angle */
-  SWATHS  /* 40 degrees of longitude lie between columns GAP_AT and the next */
+  SWATHS, /* 40 degrees of longitude lie between columns GAP_AT and the next */
+  UPRIGHT /* the same of swaths along the axes */
 } layout;
 
 typedef struct situation {
@@ -98,11 +99,17 @@ static const situation SITUATIONS[] = {
      .positions = true,
      .standard_name = EASTWARD,
      .doubt = "19 of its 361 cells are missing: they lie over gaps"},
+    {.what = "two swaths along the axes",
+     .layout = UPRIGHT,
+     .dimension = {"row", "cell"},
+     .positions = true,
+     .standard_name = EASTWARD,
+     .doubt = "nothing is interpolated over 1 gap along its axes"},
 };
 
 static double position_of(const situation *s, int k, size_t j, size_t i)
 {
-  const double gap = s->layout == SWATHS && i > GAP_AT ? 40.0 - STEP : 0.0;
+  const double gap = s->layout >= SWATHS && i > GAP_AT ? 40.0 - STEP : 0.0;
   if (s->layout == TURNED)
     return k == 0 ? FIRST_LONGITUDE + STEP * (double)j
                   : FIRST_LATITUDE + STEP * (double)(SIDE - 1 - i);
@@ -188,6 +195,11 @@ static void assert_read(const fg_field *field, const situation *s)
     if (s->layout == SWATHS && east > STEP * (GAP_AT + 4) && east < STEP * GAP_AT + 38.0)
       fail_msg("%s: a value in the gap, %g east", s->what, east);
   }
+  double middle[2] = {FIRST_LONGITUDE + STEP * GAP_AT + 20.0, FIRST_LATITUDE + STEP};
+  double velocity[2];
+  middle[0] += 360.0 * nearbyint((a->axis[0][0] - FIRST_LONGITUDE) / 360.0);
+  if (s->layout == UPRIGHT && fg_field_velocity(field, middle, velocity))
+    fail_msg("%s: %g, %g in the gap", s->what, velocity[0], velocity[1]);
   if (3 * valid < all)
     fail_msg("%s: %zu of %zu samples", s->what, valid, all);
 }
