@@ -32,7 +32,7 @@ def ocean(east=180.0):
 
 
 def is_land(lon, lat):
-    """Within so many degrees of some places."""
+    """Whether points lie within a number of degrees of some places."""
     places, land = ((20, 5, 30), (-70, -10, 25), (100, 40, 30), (135, -25, 15)), False
     for x, y, degrees in places:
         east = (np.mod(lon - x + 180.0, 360.0) - 180.0) * np.cos(np.radians(lat))

@@ -20,7 +20,7 @@ static const double SMALLEST = 1e-4, LARGEST = 1e15;
 enum { DIGITS = 15, ALL_DIGITS = 17 };
 static const int64_t MOST_WHOLE = 100000000000000000; /* of all digits */
 
-/* The decimal places of so many digits of a number between these sizes. */
+/* The decimal places of a number of significant digits between these sizes. */
 static int places_of(double size, int digits)
 {
   int places = digits - 1;

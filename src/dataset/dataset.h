@@ -1,4 +1,4 @@
-/* What a file holds, whichever its format: variables along dimensions, as xarray and the
+/* What a file of any format holds: variables along dimensions, as xarray and the
  * CF conventions have them. A decoder (decode/) fills it from bytes and knows nothing of
  * vectors, times or maps; interpret/ finds those in it and knows nothing of formats. */
 #ifndef FG__DATASET_H
@@ -152,7 +152,7 @@ struct fg__dataset {
   fg_context *context;
   fg__dataset_file file[FG__DATASET_FILES];
   int files;
-  int component_files; /* so many of them, from the first, may hold components */
+  int component_files; /* how many of them, from the first, may hold components */
   fg__dimension *dimensions;
   size_t dimension_count, dimension_capacity;
   fg__variable *variables;

@@ -10,7 +10,7 @@
  * that times the file's size is not in the file. */
 static const size_t LARGEST_COMPRESSION = 1032;
 
-/* So many times or levels of two files are compared. */
+/* The most times or levels of two files that are compared. */
 enum { MOST_COMPARED = 100000 };
 
 static void write_shape(char *out, size_t size, const fg__dataset *data,

@@ -1,6 +1,6 @@
 /* What a dataset means: its vectors, their grids, times and levels, in the order in which
  * they are found: pairs, grid, words. It sees names, attributes and coordinates,
- * whichever format they are of. */
+ * of any format. */
 #ifndef FG__INTERPRET_H
 #define FG__INTERPRET_H
 

@@ -1,4 +1,4 @@
-/* Fields, spheres and inventories of datasets, whichever format they are of. */
+/* Fields, spheres and inventories of datasets of any format. */
 #include "read/vector_choice.h"
 
 #include "field/slab.h"

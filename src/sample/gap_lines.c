@@ -7,29 +7,11 @@
 #include "base/memory.h"
 #include "sample/gaps.h"
 
-/* With fewer intervals most of those round one are not like it on any uneven axis. */
-enum { FEWEST = 7 };
-
-/* Marks the intervals that go over gaps; returns how many. *gap is to be freed; NULL:
- * none is marked, perhaps for lack of memory. */
-static size_t find(bool **gap, const double *axis, size_t size)
-{
-  *gap = NULL;
-  if (size <= FEWEST)
-    return 0;
-  double *length = fg__allocate(size - 1, sizeof *length);
-  *gap = fg__allocate(size - 1, sizeof **gap);
-  for (size_t i = 0; i + 1 < size && length; ++i)
-    length[i] = axis[i + 1] - axis[i];
-  const size_t count = length && *gap ? fg__gaps_find(*gap, length, size - 1) : 0;
-  free(length);
-  return count;
-}
-
 size_t fg__axis_gaps(const double *axis, size_t size)
 {
   bool *gap;
-  const size_t count = find(&gap, axis, size);
+  size_t count;
+  fg__gaps_along(&gap, &count, axis, size);
   free(gap);
   return count;
 }
@@ -105,7 +87,8 @@ fg_status fg__gap_lines_insert(fg_field_arrays *arrays, float *velocity[3],
   bool done = true;
   for (int k = 0; k < arrays->dimension && done; ++k) {
     bool *gap;
-    const size_t gaps = find(&gap, arrays->axis[k], (size_t)arrays->size[k]);
+    size_t gaps;
+    done = fg__gaps_along(&gap, &gaps, arrays->axis[k], (size_t)arrays->size[k]);
     if (gaps > 0)
       done = insert_along(arrays, k, gap, gaps, velocity, valid, &axis[k]);
     free(gap);

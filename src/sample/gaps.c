@@ -1,6 +1,14 @@
 #include "sample/gaps.h"
 
-enum { BESIDE = 3 };
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+enum {
+  BESIDE = 3,
+  FEWEST =
+      7 /* intervals: of fewer, most of those round one are unlike it on an uneven axis */
+};
 
 /* An interval of 4 is rounded in even grids of which three lines are left out. */
 static const double WIDE = 4.5;
@@ -30,4 +38,21 @@ size_t fg__gaps_find(bool *gap, const double *length, size_t n)
     count += gap[i];
   }
   return count;
+}
+
+bool fg__gaps_along(bool **gap, size_t *count, const double *axis, size_t size)
+{
+  *gap = NULL;
+  *count = 0;
+  if (size <= FEWEST)
+    return true;
+  double *length = fg__allocate(size - 1, sizeof *length);
+  *gap = fg__allocate(size - 1, sizeof **gap);
+  for (size_t i = 0; i + 1 < size && length; ++i)
+    length[i] = axis[i + 1] - axis[i];
+  const bool memory = length && *gap;
+  if (memory)
+    *count = fg__gaps_find(*gap, length, size - 1);
+  free(length);
+  return memory;
 }

@@ -11,4 +11,8 @@
  * even grid may be left out, and spacings may change anywhere. Returns how many. */
 size_t fg__gaps_find(bool *gap, const double *length, size_t n);
 
+/* The same of the intervals between ascending coordinates, if they are 7 or more. *gap is
+ * to be freed; NULL: there are fewer. False: memory ran out. */
+bool fg__gaps_along(bool **gap, size_t *count, const double *axis, size_t size);
+
 #endif

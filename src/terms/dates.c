@@ -17,7 +17,7 @@ static const double LARGEST_DAYS = 1e8;
 /* From 1970 to the year 9999 and a little. */
 static const double MOST_SECONDS = 2.5e11;
 
-/* Reads a number of up to so many digits; advances. */
+/* Reads a number of at most `digits` digits; advances. */
 static bool read_number(const char **text, int digits, int least, int most, int *out)
 {
   int n = 0;
@@ -27,7 +27,7 @@ static bool read_number(const char **text, int digits, int least, int most, int 
   return n > 0 && *out >= least && *out <= most;
 }
 
-/* The same of exactly so many. */
+/* The same of exactly `digits`. */
 static bool read_digits(const char **text, int digits, int least, int most, int *out)
 {
   const char *start = *text;
@@ -154,7 +154,7 @@ static double move_by_months(fg__date *date, fg__calendar calendar, double month
   return (months - whole) * (double)(days * DAY_SECONDS);
 }
 
-/* The date so many seconds after another, and what is left of its day. */
+/* The date a number of seconds after another, and what is left of its day. */
 static fg__date date_after(fg__calendar calendar, fg__date from, int64_t seconds,
                            int64_t *rest)
 {

@@ -79,7 +79,7 @@ static void units_are_classified_and_written_shortly(void **state)
   }
 }
 
-/* A unit's size in another, whichever way it is written; 0: they measure different
+/* A unit's size in another, however it is written; 0: they measure different
  * things.
  */
 static void units_have_factors(void **state)

@@ -11,7 +11,7 @@
  * FILE_CALLS_LOG is a file that gets the number of calls when the program ends, and
  * FILE_CALLS_FORKS one that gets the number of child processes.
  *
- * FILE_CALLS_SHORTEN, "NAME BYTES": a file with that name in its path is cut to so many
+ * FILE_CALLS_SHORTEN, "NAME BYTES": a file with that name in its path is cut to these
  * bytes as soon as it is mapped into memory. */
 #define _GNU_SOURCE
 #include <dlfcn.h>

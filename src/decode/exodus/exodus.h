@@ -18,7 +18,7 @@ typedef struct fg__exodus_shape {
   signed char order[FG__EXODUS_NODES]; /* the cell's nodes; all 0: as they come */
 } fg__exodus_shape;
 
-/* NULL: there is none of that name with so many nodes. */
+/* NULL: there is none of that name and number of nodes. */
 const fg__exodus_shape *fg__exodus_shape_find(const char *name, size_t nodes);
 
 typedef struct fg__exodus_block {

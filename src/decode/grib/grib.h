@@ -227,7 +227,7 @@ fg_status fg__grib_mesh_make(fg__grib_grid *grid, fg_context *context);
 /* png.c: whether an image is whole, one that libpng unpacks without complaint. */
 bool fg__grib_is_png(const unsigned char *png, size_t size);
 
-/* packing.c: whether an image of JPEG 2000 says that it has one component of so many
+/* packing.c: whether an image of JPEG 2000 says that it has one component of `count`
  * samples. */
 bool fg__grib_jpeg_has(const unsigned char *jpeg, size_t size, uint64_t count);
 
@@ -235,7 +235,7 @@ bool fg__grib_jpeg_has(const unsigned char *jpeg, size_t size, uint64_t count);
  * value that CCSDS' packing allows. */
 bool fg__grib_ccsds_is_sound(const unsigned char *packing, size_t size);
 
-/* packing.c: whether the groups of complex packing have so many values together, all in
+/* packing.c: whether the groups of complex packing have `count` values together, all in
  * the data; packing is section 5, data what follows the head of section 7. */
 bool fg__grib_groups_fit(const unsigned char *packing, size_t packing_size,
                          const unsigned char *data, size_t size, uint64_t count);

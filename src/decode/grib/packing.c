@@ -43,7 +43,7 @@ bool fg__grib_ccsds_is_sound(const unsigned char *packing, size_t size)
          interval >= 1 && interval <= 4096;
 }
 
-/* Numbers of so many bits, one after the other, from a whole byte on. */
+/* Numbers of a fixed count of bits, one after the other, from a whole byte on. */
 typedef struct bit_list {
   const unsigned char *bytes;
   unsigned bits;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A pole within so many rows of the last one belongs to the grid. */
+/* In rows: a pole that is no further from the last row belongs to the grid. */
 static const double POLE_WITHIN = 1.01;
 
 /* The rotation that moves a grid's own pole to the Earth's. */

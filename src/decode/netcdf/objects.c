@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* libnetcdf opens each of them and takes time for it: half a second for so many. Model
+/* libnetcdf takes half a second to open this number of objects. Model
  * output has hundreds of objects, and NetCDF had this bound of attributes once. */
 enum {
   MOST_OBJECTS = 1 << 13,    /* data sets and groups */

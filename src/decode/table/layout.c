@@ -158,7 +158,7 @@ static bool is_nearly_number(const fg__table_field *field)
   return has_digit;
 }
 
-/* The style in which both lines have so many fields and this one the most numbers, at
+/* The style in which both lines have `columns` fields and this one the most numbers, at
  * least one; -1: none. */
 static int style_of_row(const fg__table_line *names, const fg__table_line *row,
                         int columns)

@@ -135,7 +135,7 @@ static fg_status read_attribute_of(legacy_file *file, size_t n)
                                           "a number of components or colours");
   if (status == FG_STATUS_OK && kind == SCALARS)
     status = read_rest_of_scalars(c, &components);
-  if (kind == COLOR_TABLE) { /* so many colours of four numbers */
+  if (kind == COLOR_TABLE) { /* colours of four numbers each */
     tuples = (size_t)components;
     components = 4;
   }

@@ -1,7 +1,7 @@
 /* The points and cells of a legacy VTK file. */
 #include "decode/vtk/legacy_scan.h"
 
-/* Adds an array of so many numbers of a type, which begin on the next line. */
+/* Adds an array of `count` numbers of a type, which begin on the next line. */
 static fg_status take(size_t *out, fg__vtk *vtk, fg__legacy_cursor *c, const char *name,
                       const char *type, size_t count)
 {

@@ -1,4 +1,4 @@
-/* The parts of a VTK file, whichever way they were found. */
+/* The parts of a VTK file, from XML or legacy text. */
 #include "decode/vtk/vtk.h"
 
 #include "base/memory.h"

@@ -209,7 +209,7 @@ bool fg__unstructured_axis(fg__grid *grid, const fg__dataset *data, const fg__va
   return true;
 }
 
-/* Variables that hold all that is read, if the file has so many bytes. */
+/* Refuses variables that declare more bytes than the file can hold. */
 static void check_storage(fg__grid *grid, const fg__dataset *data,
                           const fg__unstructured *mesh, const fg__pair *pair)
 {

@@ -37,7 +37,7 @@ struct fg__unstructured {
   bool wet_is_zero;                 /* the mask is 1 on land */
   const fg__variable *turn[2];      /* cosine and sine of the angle from east to x of
                                        vectors along the mesh's rows; NULL: east */
-  size_t poles;                     /* so many nodes, the last, are poles without a value
+  size_t poles;                     /* how many nodes, the last, are poles without a value
                                        that faces go round */
   long sides;                       /* HEALPix: N_side; 0: it is none */
   bool nested;                      /* its order */

@@ -4,7 +4,7 @@
 
 enum { SIDE = 5, POINTS = SIDE * SIDE };
 
-/* A grid of points in 2 degrees of longitude and so many of latitude. */
+/* A grid of points in 2 degrees of longitude and a given height of latitude. */
 static fg_field *read_strip(sample_file *f, double height)
 {
   double values[4][POINTS];

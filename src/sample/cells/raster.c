@@ -23,7 +23,7 @@ enum {
   SAMPLES_A_CELL = 1 << (12 - FEWER),
   FINEST =
       8, /* samples a cell, where there is room: stairs at slanting edges are finer */
-  MEASURED_CELLS = 1 << 16, /* so many, evenly chosen, tell the spacing */
+  MEASURED_CELLS = 1 << 16, /* evenly chosen ones, which tell the spacing */
   MOST_COVER = 64, /* times that cells' boxes may cover the raster: sound meshes do it
                       1 to 6 times (tetrahedra fill a sixth of their boxes), thin
                       slanting layers 30 times and more */
@@ -37,7 +37,7 @@ enum {
 /* Of the width: single precision rounds coordinates by less, and no layer is thinner. */
 static const double FLAT = 1e-5;
 
-/* Of the cells' widths along an axis the one that so many are narrower than. */
+/* Of the cells' widths along an axis the one that this share is narrower than. */
 static const double NARROWER = 0.25;
 
 /* A sample may lie so far outside a cell, whose size is 1: coordinates are rounded. */

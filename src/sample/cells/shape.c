@@ -156,7 +156,7 @@ enum { MOST_STEPS = 16 };
 /* Of the cell's width: the rounding of double precision and a few products. */
 static const double MISS = 1e-13;
 
-/* An iterate so many cells away has diverged. */
+/* In cells: an iterate that is further away has diverged. */
 static const double FAR_AWAY = 8.0;
 
 bool fg__cell_invert(double at[3], fg__cell_shape shape,

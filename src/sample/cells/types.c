@@ -148,7 +148,7 @@ static bool is_line(int type)
 
 enum { STRIP = 6, POLYGON = 7 };
 
-/* The type with so many nodes, or else the first of that number. */
+/* The type of that number (VTK's) and number of nodes, or else the number's first. */
 static const cell_type *find(int type, size_t nodes)
 {
   const cell_type *first = NULL;
@@ -178,7 +178,7 @@ static fg_status fail_nodes(const fg__cell_set *set, const char *name, size_t no
                   nodes, expected);
 }
 
-/* Adds a middle of so many points; *out is its place. */
+/* Adds the middle of corners and points between them; *out is its place. */
 static fg_status add_middle(int *out, fg__cell_set *set, int corners, int betweens,
                             const int *parent)
 {

@@ -15,10 +15,10 @@ enum {
 /* Of the axis' width: coordinates on one line differ by less, those of lines by more. */
 static const double SAME_LINE = 1e-6;
 
-/* Of the narrowest interval: wider ones are so many of it, but for rounding. */
+/* An interval is a whole multiple of the narrowest one, but for this share of it. */
 static const double EVEN = 0.01;
 
-/* Of the intervals, so many at most may be gaps where lines have no point at all. */
+/* The largest share of the intervals that may lack a line of points. */
 static const double FEW = 0.1;
 
 typedef struct ranked {
@@ -137,26 +137,22 @@ static double step_beside(const lines *l, const bool *gap, size_t i, bool after)
  * nothing is interpolated across it. */
 static fg_status open_gaps(lines *l, size_t *gaps, const fg__scatter *points)
 {
-  const size_t intervals = l->count > 0 ? l->count - 1 : 0;
-  double *length = fg__allocate(l->count, sizeof *length);
-  bool *gap = fg__allocate(l->count, sizeof *gap);
-  size_t found = 0;
-  for (size_t i = 0; i < intervals && length; ++i)
-    length[i] = l->at[i + 1] - l->at[i];
-  if (length && gap)
-    found = fg__gaps_find(gap, length, intervals);
+  bool *gap;
+  size_t found;
+  bool memory = fg__gaps_along(&gap, &found, l->at, l->count);
   double *at = fg__allocate(l->count + 2 * found, sizeof *at);
   int *now = fg__allocate(l->count, sizeof *now);
-  const bool memory = length && gap && at && now;
+  memory = memory && at && now;
   if (memory && found > 0) {
     size_t n = 0;
     for (size_t i = 0; i < l->count; ++i) {
       now[i] = (int)n;
       at[n++] = l->at[i];
-      if (i == intervals || !gap[i])
+      if (i + 1 == l->count || !gap[i])
         continue;
-      at[n++] = l->at[i] + fmin(step_beside(l, gap, i, false), 0.25 * length[i]);
-      at[n++] = l->at[i + 1] - fmin(step_beside(l, gap, i, true), 0.25 * length[i]);
+      const double quarter = 0.25 * (l->at[i + 1] - l->at[i]);
+      at[n++] = l->at[i] + fmin(step_beside(l, gap, i, false), quarter);
+      at[n++] = l->at[i + 1] - fmin(step_beside(l, gap, i, true), quarter);
     }
     for (size_t p = 0; p < points->count; ++p)
       l->of[p] = now[l->of[p]];
@@ -166,7 +162,6 @@ static fg_status open_gaps(lines *l, size_t *gaps, const fg__scatter *points)
     at = NULL;
   }
   *gaps += found;
-  free(length);
   free(gap);
   free(at);
   free(now);

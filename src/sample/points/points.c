@@ -13,7 +13,7 @@
 /* The largest share of points that may have another value than one at the same place. */
 static const double FEW = 0.1;
 
-/* Longitudes are cut in a gap of at least so many degrees, else where their values end.
+/* Longitudes are cut in a gap of at least these degrees, else where their values end.
  */
 static const double WIDE_GAP = 30.0;
 
