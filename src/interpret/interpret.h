@@ -93,6 +93,10 @@ const fg__variable *fg__single_coordinate(const fg__dataset *data,
 /* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
 bool fg__is_time(const fg__dataset *data, const fg__variable *variable, int k);
 
+/* The role of a variable's dimension number k by its coordinate's attributes, else by
+ * names. */
+fg__role fg__claimed_role(const fg__dataset *data, const fg__variable *variable, int k);
+
 /* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
 bool fg__may_be_index(const fg__variable *coordinate);
 
