@@ -180,6 +180,7 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
                                 .scale = arrays->scale};
   for (int k = 0; k < arrays->dimension; ++k) {
     vector.name[k] = arrays->velocity_name[k];
+    vector.axis_name[k] = arrays->axis_name[k];
     vector.size[k] = arrays->size[k];
     vector.bounds[2 * k] = arrays->axis[k][0];
     vector.bounds[2 * k + 1] = arrays->axis[k][arrays->size[k] - 1];
@@ -290,6 +291,7 @@ void fg_input_close(fg_input *input)
     input->kept.close(input->kept.data);
   fg__source_close(&input->source, NULL, FG_STATUS_OK);
   fg_inventory_destroy(input->inventory);
+  fg_inventory_destroy(input->all);
   free(input);
 }
 
@@ -300,16 +302,28 @@ static fg_status ask(fg__answer *out, fg_context *context, fg_input *input,
                                    : fg__input_answer)(out, context, input, question);
 }
 
+/* Asks for an inventory unless it is there. */
+static fg_status keep_inventory(const fg_inventory **out, fg_inventory **kept,
+                                fg_context *context, fg_input *input,
+                                fg__question_kind kind)
+{
+  fg__answer answer = {.inventory = *kept};
+  fg_status status = FG_STATUS_OK;
+  if (!*kept)
+    status = ask(&answer, context, input, &(fg__question){.kind = kind});
+  *out = *kept = answer.inventory;
+  return status;
+}
+
 fg_status fg_input_inventory(const fg_inventory **out, fg_context *context,
                              fg_input *input)
 {
-  fg__answer answer = {.inventory = input->inventory};
-  fg_status status = FG_STATUS_OK;
-  if (!input->inventory)
-    status = ask(&answer, context, input, &(fg__question){.kind = FG__ASK_VECTOR});
-  input->inventory = answer.inventory;
-  *out = input->inventory;
-  return status;
+  return keep_inventory(out, &input->inventory, context, input, FG__ASK_VECTOR);
+}
+
+fg_status fg_input_vectors(const fg_inventory **out, fg_context *context, fg_input *input)
+{
+  return keep_inventory(out, &input->all, context, input, FG__ASK_ALL_VECTORS);
 }
 
 fg_status fg_input_defaults(fg_read_defaults *out, fg_context *context, fg_input *input)

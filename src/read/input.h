@@ -22,6 +22,7 @@ struct fg_input {
   const fg__format *format; /* NULL: an analytic field */
   fg__kept kept;
   fg_inventory *inventory; /* of the chosen vector, once it was asked for */
+  fg_inventory *all;       /* of all vectors, likewise */
   fg__isolation isolation;
   void (*decoded)(void); /* called once samples are read, before a map is made; or NULL */
 };

@@ -46,6 +46,7 @@ struct fg__unstructured {
   bool in_radians;                  /* where units do not say */
   fg__grid of_v;                    /* the second component's own dimensions */
   char rule[2 * FG__TEXT_BYTES];    /* what the mesh is and how it was found */
+  char axis_name[3][FG__TEXT_BYTES]; /* of the field that it becomes */
 };
 
 /* find.c. Finds the mesh that a pair lies on; then grid->unstructured is set, and the
