@@ -414,14 +414,3 @@ fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
     status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
   return fg__vector_choice_leave(c, status);
 }
-
-fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__dataset_format *format, const fg__source *source,
-                               const fg_read_options *options)
-{
-  fg__vector_choice *c;
-  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
-  if (status == FG_STATUS_OK)
-    status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
-  return fg__vector_choice_leave(c, status);
-}

@@ -28,7 +28,6 @@ struct fg_input {
 };
 
 typedef enum fg__question_kind {
-  FG__ASK_DEFAULTS,
   FG__ASK_VECTOR,
   FG__ASK_ALL_VECTORS,
   FG__ASK_FIELD
@@ -42,7 +41,6 @@ typedef struct fg__question {
 
 /* Of a question's kind. */
 typedef struct fg__answer {
-  fg_read_defaults defaults;
   fg_inventory *inventory;
   fg_field *field;
 } fg__answer;

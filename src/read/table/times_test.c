@@ -87,7 +87,7 @@ static void levels_are_told_by_their_scatter(void **state)
     const fg__source source = source_of(text);
     fg_inventory *inventory = NULL;
     assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-    assert_int_equal(fg__format_table.inventory(inventory, *state, &source),
+    assert_int_equal(fg__format_table.inventory(inventory, *state, &source, NULL),
                      FG_STATUS_OK);
     const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
     assert_int_equal(v->levels, cases[i].levels);
@@ -114,7 +114,8 @@ static void levels_are_chosen(void **state)
   const fg__source source = source_of(text);
   fg_inventory *inventory = NULL;
   assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-  assert_int_equal(fg__format_table.inventory(inventory, *state, &source), FG_STATUS_OK);
+  assert_int_equal(fg__format_table.inventory(inventory, *state, &source, NULL),
+                   FG_STATUS_OK);
   const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
   assert_int_equal(v->levels, 2);
   assert_true(v->level_value[0].value == 5.0 && v->level_value[1].value == 50.0);

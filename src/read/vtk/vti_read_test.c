@@ -343,7 +343,8 @@ static fg_inventory *inventory_of(fg_context *context, const char *words)
   assert_int_equal(fg__inventory_create(&inventory, context, "x"), FG_STATUS_OK);
   fg__source source = {
       .path = "a.vti", .bytes = (const unsigned char *)words, .size = strlen(words)};
-  assert_int_equal(fg__format_vti.inventory(inventory, context, &source), FG_STATUS_OK);
+  assert_int_equal(fg__format_vti.inventory(inventory, context, &source, NULL),
+                   FG_STATUS_OK);
   return inventory;
 }
 
