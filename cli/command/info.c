@@ -347,10 +347,10 @@ int command_info(const void *given)
     return EXIT_FAILED;
   int code = read_as_run(&list);
   const fg_status status = find_vectors(&list);
-  const bool listed = !status && list.inventory && count_of(&list) > 0;
+  const bool listed = !status && list.inventory;
   if (status && !code)
     code = complain_of(list.context, status, list.reading.input);
-  else if (code && (!listed || list.is_chosen))
+  else if (code && (!listed || list.is_chosen || count_of(&list) == 0))
     repeat_complaint();
   else
     code = EXIT_DONE;

@@ -5,10 +5,20 @@ source "$(dirname "$0")/harness.sh"
 
 few=(--arrows 1 --effort 0 --start even --nodes 33 --formats svg --no-page --width 40 --quiet)
 
+# lists_what_is_read FILE: where a file has one vector, and no map is drawn, the list has the grid that is read.
+lists_what_is_read() {
+  [ "$(jq -c '[.vectors[] | select(has("size"))] as $v | .field as $f |
+    if ($v | length) != 1 or $f == null or $f.projection != null then [] else $v[0] |
+      [.size, .bounds, .axes, .scale, .doubts] - [$f.size, $f.bounds, $f.axes, $f.scale, $f.doubts] +
+        if .cells or .points then [] else [.missing_share] - [$f.missing_share] end end' told)" = "[]" ] ||
+    fault "$1: listed: $(jq -c '.vectors[0] | del(.time_values)' told | head -c 500), read: $(jq -c .field told | head -c 500)"
+}
+
 # alike FILE OPTIONS...: run.json and info's JSON have the same input and field, or both refuse with the same words.
 alike() {
   local refused
   "$program" info --json "$@" >told 2>told.err
+  [ $# -gt 1 ] || [ ! -s told ] || lists_what_is_read "$1"
   rm -rf done
   try run "$@" -o done "${few[@]}"
   if [ -e done/run.json ]; then

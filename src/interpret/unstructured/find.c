@@ -22,6 +22,20 @@ bool fg__same_dimension(const fg__dataset *data, int a, int b)
   return a == b || (of[a].file != of[b].file && of[a].length == of[b].length);
 }
 
+bool fg__search_lies(const fg__mesh_search *search, const fg__variable *v, int rank)
+{
+  bool same = v->rank == rank && v->element == 0 && fg__is_array(v);
+  for (int k = 0; k < rank && same; ++k)
+    same = fg__same_dimension(search->data, v->dimension[k],
+                              search->u->dimension[search->k - rank + 1 + k]);
+  return same;
+}
+
+bool fg__search_along(const fg__mesh_search *search, int dimension)
+{
+  return fg__same_dimension(search->data, search->u->dimension[search->k], dimension);
+}
+
 /* Whether y is the first of two coordinates. */
 static bool is_turned(const fg__variable *first, const fg__variable *second)
 {

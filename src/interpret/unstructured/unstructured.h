@@ -118,6 +118,11 @@ typedef struct fg__mesh_search {
   bool elsewhere; /* what is lacking may be in another file */
 } fg__mesh_search;
 
+/* Whether a variable lies along the last `rank` dimensions of the vectors up to that
+ * which is looked at; and whether a dimension is that. */
+bool fg__search_lies(const fg__mesh_search *search, const fg__variable *v, int rank);
+bool fg__search_along(const fg__mesh_search *search, int dimension);
+
 bool fg__find_ugrid(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_model(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_healpix(fg__unstructured *out, fg__mesh_search *search);
