@@ -1,5 +1,5 @@
 /* Dimensions that are neither time nor level, of which one sample is chosen. */
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 enum { TIMES = 2, MEMBERS = 3, VERSIONS = 2, LEVELS = 2 };
 enum { ALL = TIMES * MEMBERS * VERSIONS * LEVELS * COUNT };

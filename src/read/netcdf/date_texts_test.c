@@ -1,7 +1,7 @@
 /* Dates as text, as WRF, FVCOM and MPAS write them. */
 #include <math.h>
 
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 enum { TIMES = 3, LETTERS = 27 };
 

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 /* Columns and rows of a plane in metres, x of index i, y of index j. */
 static double plane_at(int k, double n)

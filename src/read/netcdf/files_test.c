@@ -1,5 +1,5 @@
 /* Fields whose parts lie in two files. */
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 static void the_other_component_may_lie_in_a_second_file(void **state)
 {

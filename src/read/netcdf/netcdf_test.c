@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 enum { NT = 3, NZ = 2 };
 

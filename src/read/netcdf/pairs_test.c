@@ -1,5 +1,5 @@
 #include "interpret/interpret.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 /* A variable of a file: name, standard name, units. */
 typedef struct declared {

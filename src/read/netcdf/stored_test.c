@@ -1,7 +1,7 @@
 /* Meaning of stored numbers: packed, missing, masked, out of range. */
 #include <math.h>
 
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 static void packed_values_are_unpacked(void **state)
 {

@@ -1,7 +1,7 @@
 /* Fields in 3D from NetCDF, and pairs that stay a plane. */
 #include <math.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { NX = 5, NY = 4, NZ = 3, NT = 2, COUNT = NX * NY * NZ };
 

@@ -1,5 +1,5 @@
 /* What a pair is called, from what its components' attributes share. */
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 typedef struct naming {
   const char *attribute, *of_u, *of_v;
