@@ -6,9 +6,10 @@
  *   time[*2]                                  an unlimited dimension with 2 records
  *   float u(lat,lon) :units=m/s = 1 2 3       a variable (double unless it says so)
  *   :title=all of it                          an attribute of the file
- *   u(lat,lon) :valid_range=#-5 5 :_Chunks=#2 2    numbers as attribute; sizes of chunks
- * Numbers are repeated until the variable is full: a:b:step is a range, _ the default
- * fill value. `~ 1 lon 2 lat 0.5` is 1 plus 2 and 0.5 for each index along lon and lat.
+ *   u(lat,lon) :a=#-5 5 :_FillValue=@-9 :_Chunks=#2 2    attributes: two numbers, one of
+ * the variable's type; sizes of chunks Numbers are repeated until the variable is full:
+ * a:b:step is a range, _ the default fill value. `~ 1 lon 2 lat 0.5` is 1 plus 2 and 0.5
+ * for each index along lon and lat.
  *
  * What is expected is a list with '|' between its items. Each must stand in the message,
  * or in the text that describes the field or the inventory below, or with '!' not; "at X
@@ -72,12 +73,11 @@ static inline int notation_list(double *out, const char *text)
   int count = 0;
   while (*(text += strspn(text, " "))) {
     char *end;
-    if (*text == '_') {
-      out[count++] = NC_FILL_DOUBLE;
-      ++text;
-      continue;
-    }
     out[count++] = strtod(text, &end);
+    if (*text == '_') {
+      out[count - 1] = NC_FILL_DOUBLE;
+      ++end;
+    }
     if (*end == ':') {
       const double first = out[--count], last = strtod(end + 1, &end);
       const double step = strtod(end + 1, &end);
@@ -150,9 +150,9 @@ static inline void notation_attribute(const sample_file *f, int id, const char *
   double list[MOST_RANK];
   size_t chunk[MOST_RANK];
   nc_type type = NC_DOUBLE;
-  const int count = notation_list(list, numbers);
+  const int count = notation_list(list, numbers + 1);
   sample_define(f);
-  if (strcmp(name, "_FillValue") == 0)
+  if (*numbers == '@')
     nc_must(nc_inq_vartype(f->id, id, &type));
   for (int k = 0; k < count; ++k)
     chunk[k] = (size_t)list[k];
@@ -169,8 +169,8 @@ static inline void notation_rest(const notation *n, int id, int rank,
   while (*part == ':') {
     char *const next = notation_part(part + 1), *const value = strchr(part, '=') + 1;
     value[-1] = '\0';
-    if (*value == '#')
-      notation_attribute(n->file, id, part + 1, value + 1);
+    if (*value == '#' || *value == '@')
+      notation_attribute(n->file, id, part + 1, value);
     else
       sample_text(n->file, id, part + 1, value);
     part = next;
@@ -281,6 +281,7 @@ static inline void describe_field(text_of *t, const fg_field *field)
   add_line(t, "time", a->time ? a->time : "");
   add_line(t, "level", a->level ? a->level : "");
   add_line(t, "doubts", a->doubts ? a->doubts : "");
+  add_text(t, "infinite %d\n", (int)fg_field_infinite(field));
 }
 
 /* For each vector "[u,v names]", a line for each fact that it has, and its times and
