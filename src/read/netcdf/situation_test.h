@@ -1,225 +1,28 @@
 /* Situations of NetCDF files as rows of a table: what a file has, in a short notation,
  * the options, and what must be read, listed or refused.
  *
- * Statements of the notation end with ';':
- *   lat[3] :units=degrees_north = -10 5 30    a dimension, and its coordinates if any
- *   time[*2]                                  an unlimited dimension with 2 records
- *   float u(lat,lon) :units=m/s = 1 2 3       a variable (double unless it says so)
- *   :title=all of it                          an attribute of the file
- *   u(lat,lon) :a=#-5 5 :_FillValue=@-9 :_Chunks=#2 2    attributes: two numbers, one of
- * the variable's type; sizes of chunks Numbers are repeated until the variable is full:
- * a:b:step is a range, _ the default fill value. `~ 1 lon 2 lat 0.5` is 1 plus 2 and 0.5
- * for each index along lon and lat.
- *
  * What is expected is a list with '|' between its items. Each must stand in the message,
  * or in the text that describes the field or the inventory below, or with '!' not; "at X
- * Y[ Z] = U V[ W]" is the field's velocity at a place, "at X Y = none" says that it has
- * none. */
+ * Y[ Z] = U V[ W]" is the field's velocity at a place, "at X Y = none" or "= there" says
+ * whether it has one. */
 #ifndef FG__NETCDF_SITUATION_TEST_H
 #define FG__NETCDF_SITUATION_TEST_H
 
-#include <math.h>
 #include <stdarg.h>
 
 #include "flowgrain/inventory.h"
-#include "read/netcdf/sample_example.h"
+#include "read/netcdf/notation_example.h"
 
 typedef struct situation {
   const char *what;
   const char *file, *second, *mesh; /* second and mesh: the options' further files */
+  const char *text, *path;          /* instead of file: its bytes; a file that exists */
   int mode;                         /* of nc_create */
   fg_read_options options;
   const char *field, *inventory;
   const char *refused, *hint; /* words of the message and the hint */
   fg_status status;           /* of a refusal; OK stands for UNSUPPORTED */
 } situation;
-
-enum { MOST_DIMENSIONS = 32, MOST_RANK = 8, TEXT_BYTES = 65536, MOST_NUMBERS = 4096 };
-
-/* A file while it is written: the lengths of its dimensions by their ids. */
-typedef struct notation {
-  sample_file *file;
-  size_t length[MOST_DIMENSIONS];
-} notation;
-
-/* Ends the text at the next part that begins with " :", " = " or " ~ "; returns that. */
-static inline char *notation_part(char *text)
-{
-  for (char *c = text; *c; ++c)
-    if (*c == ' ' && (c[1] == ':' || (c[1] && strchr("=~", c[1]) && c[2] == ' '))) {
-      *c = '\0';
-      return c + 1;
-    }
-  return text + strlen(text);
-}
-
-static inline nc_type notation_type(char **name)
-{
-  static const struct {
-    const char *name;
-    nc_type type;
-  } types[] = {{"float ", NC_FLOAT}, {"int ", NC_INT},   {"byte ", NC_BYTE},
-               {"short ", NC_SHORT}, {"char ", NC_CHAR}, {"string ", NC_STRING}};
-  for (size_t n = 0; n < sizeof types / sizeof *types; ++n)
-    if (strncmp(*name, types[n].name, strlen(types[n].name)) == 0) {
-      *name += strlen(types[n].name);
-      return types[n].type;
-    }
-  return NC_DOUBLE;
-}
-
-static inline int notation_list(double *out, const char *text)
-{
-  int count = 0;
-  while (*(text += strspn(text, " "))) {
-    char *end;
-    out[count++] = strtod(text, &end);
-    if (*text == '_') {
-      out[count - 1] = NC_FILL_DOUBLE;
-      ++end;
-    }
-    if (*end == ':') {
-      const double first = out[--count], last = strtod(end + 1, &end);
-      const double step = strtod(end + 1, &end);
-      const int steps = (int)lround((last - first) / step);
-      for (int n = 0; n <= steps; ++n)
-        out[count++] = first + step * n;
-    }
-    if (*end == '*')
-      for (long n = strtol(end + 1, &end, 10); n > 1; --n, ++count)
-        out[count] = out[count - 1];
-    if (end == text || count >= MOST_NUMBERS)
-      fail_msg("no numbers: %s", text);
-    text = end;
-  }
-  return count;
-}
-
-/* The number at a sample's indices by "1 lon 2 lat 0.5". */
-static inline double notation_linear(const sample_file *f, const char *text, int rank,
-                                     const int *dimension, const size_t *index)
-{
-  char *end;
-  double value = strtod(text, &end);
-  while (*(end += strspn(end, " "))) {
-    char name[NC_MAX_NAME + 1];
-    const size_t bytes = strcspn(end, " ");
-    const char *const begin = end;
-    const double step = strtod(end + bytes, &end);
-    for (int k = 0; k < rank; ++k) {
-      nc_must(nc_inq_dimname(f->id, dimension[k], name));
-      if (strlen(name) == bytes && strncmp(name, begin, bytes) == 0)
-        value += step * (double)index[k];
-    }
-  }
-  return value;
-}
-
-static inline void notation_numbers(const notation *n, int id, int rank,
-                                    const int *dimension, const char *how)
-{
-  static double list[MOST_NUMBERS];
-  size_t start[MOST_RANK] = {0}, length[MOST_RANK], all = 1;
-  for (int k = 0; k < rank; ++k)
-    all *= length[k] = n->length[dimension[k]];
-  const char *const linear = strchr(how, '~');
-  char numbers[TEXT_BYTES];
-  snprintf(numbers, sizeof numbers, "%.*s", linear ? (int)(linear - how) : TEXT_BYTES - 1,
-           how);
-  const int count = *how == '=' ? notation_list(list, numbers + 1) : 0;
-  double *values = calloc(all, sizeof *values);
-  assert_non_null(values);
-  for (size_t i = 0; i < all; ++i) {
-    size_t index[MOST_RANK], rest = i;
-    for (int k = rank - 1; k >= 0; --k) {
-      index[k] = rest % length[k];
-      rest /= length[k];
-    }
-    values[i] = count ? list[i % (size_t)count] : 0.0;
-    if (linear)
-      values[i] += notation_linear(n->file, linear + 1, rank, dimension, index);
-  }
-  sample_write(n->file);
-  nc_must(nc_put_vara_double(n->file->id, id, start, length, values));
-  free(values);
-}
-
-static inline void notation_attribute(const sample_file *f, int id, const char *name,
-                                      const char *numbers)
-{
-  double list[MOST_RANK];
-  size_t chunk[MOST_RANK];
-  nc_type type = NC_DOUBLE;
-  const int count = notation_list(list, numbers + 1);
-  sample_define(f);
-  if (*numbers == '@')
-    nc_must(nc_inq_vartype(f->id, id, &type));
-  for (int k = 0; k < count; ++k)
-    chunk[k] = (size_t)list[k];
-  if (strcmp(name, "_Chunks") == 0)
-    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
-  else
-    nc_must(nc_put_att_double(f->id, id, name, type, (size_t)count, list));
-}
-
-/* Attributes and numbers of a variable, from the first part of its statement on. */
-static inline void notation_rest(const notation *n, int id, int rank,
-                                 const int *dimension, char *part)
-{
-  while (*part == ':') {
-    char *const next = notation_part(part + 1), *const value = strchr(part, '=') + 1;
-    value[-1] = '\0';
-    if (*value == '#' || *value == '@')
-      notation_attribute(n->file, id, part + 1, value);
-    else
-      sample_text(n->file, id, part + 1, value);
-    part = next;
-  }
-  if (*part)
-    notation_numbers(n, id, rank, dimension, part);
-}
-
-static inline void notation_statement(notation *n, char *text)
-{
-  int dimension[MOST_RANK], rank = 0;
-  if (*text == ':') {
-    notation_rest(n, NC_GLOBAL, 0, dimension, text);
-    return;
-  }
-  char *const rest = notation_part(text);
-  const nc_type type = notation_type(&text);
-  char *const length = strchr(text, '['), *name = strchr(text, '(');
-  if (length) {
-    const bool unlimited = length[1] == '*';
-    *length = '\0';
-    const size_t samples = strtoul(length + 1 + unlimited, NULL, 10);
-    dimension[rank++] =
-        sample_dimension(n->file, text, unlimited ? NC_UNLIMITED : samples);
-    n->length[dimension[0]] = samples;
-    if (!*rest)
-      return;
-  } else {
-    *name++ = '\0';
-    for (name = strtok(name, ",)"); name; name = strtok(NULL, ",)"))
-      nc_must(nc_inq_dimid(n->file->id, name, &dimension[rank++]));
-  }
-  const int id = sample_variable(n->file, text, type, rank, dimension);
-  notation_rest(n, id, rank, dimension, rest);
-}
-
-static inline void notation_write(sample_file *f, const char *text, int mode)
-{
-  notation n = {.file = f};
-  char statement[TEXT_BYTES];
-  sample_begin(f, mode);
-  while (*(text += strspn(text, " "))) {
-    const size_t bytes = strcspn(text, ";");
-    snprintf(statement, sizeof statement, "%.*s", (int)bytes, text);
-    notation_statement(&n, statement);
-    text += bytes + (text[bytes] == ';');
-  }
-  sample_end(f);
-}
 
 /* A text that grows; what does not fit is cut. */
 typedef struct text_of {
@@ -247,7 +50,7 @@ static inline void add_numbers(text_of *t, const char *name, const double *a,
                                const float *b, size_t count)
 {
   add_text(t, "%s =", name);
-  for (size_t n = 0; n < count; ++n)
+  for (size_t n = 0; n < count && n < MOST_NUMBERS; ++n)
     add_text(t, " %.6g", (a ? a[n] : (double)b[n]) + 0.0);
   add_text(t, "\n");
 }
@@ -276,6 +79,10 @@ static inline void describe_field(text_of *t, const fg_field *field)
   for (int k = 0; k < a->dimension; ++k)
     add_numbers(t, (const char *const[]){"u", "v", "w"}[k], NULL, a->velocity[k],
                 samples);
+  size_t missing = 0;
+  for (size_t n = 0; n < samples; ++n)
+    missing += isnan(a->velocity[0][n]) || isnan(a->velocity[1][n]);
+  add_text(t, "missing %zu\n", missing);
   add_line(t, "units", a->velocity_units);
   add_line(t, "title", a->title);
   add_line(t, "time", a->time ? a->time : "");
@@ -284,11 +91,17 @@ static inline void describe_field(text_of *t, const fg_field *field)
   add_text(t, "infinite %d\n", (int)fg_field_infinite(field));
 }
 
+static inline void add_value(text_of *t, const char *name, const fg_axis_value *value)
+{
+  add_text(t, "%s '%s' %.6g '%s'\n", name, value->words, value->value, value->units);
+}
+
 /* For each vector "[u,v names]", a line for each fact that it has, and its times and
  * levels; before them "vectors 2". */
 static inline void describe_inventory(text_of *t, const fg_inventory *inventory)
 {
-  add_text(t, "vectors %d\n", fg_inventory_vector_count(inventory));
+  add_text(t, "%s\nvectors %d\n", fg_inventory_format(inventory),
+           fg_inventory_vector_count(inventory));
   for (int i = 0; i < fg_inventory_vector_count(inventory); ++i) {
     const fg_inventory_vector *v = fg_inventory_vector_at(inventory, i);
     add_text(t, "[%s", v->name[0]);
@@ -308,24 +121,24 @@ static inline void describe_inventory(text_of *t, const fg_inventory *inventory)
     add_line(t, "chosen", v->chosen);
     add_line(t, "doubts", v->doubts);
     for (int n = 0; n < v->times && v->time_value; ++n)
-      add_line(t, "time", v->time_value[n].words);
+      add_value(t, "time", &v->time_value[n]);
     for (int n = 0; n < v->levels && v->level_value; ++n)
-      add_line(t, "level", v->level_value[n].words);
+      add_value(t, "level", &v->level_value[n]);
   }
 }
 
-/* "at X Y = U V", "at X Y = none". */
-static inline bool is_at(const fg_field *field, const char *text)
+static inline bool is_at(const fg_field *field, const char *text, bool tangent)
 {
   const int dimension = fg_field_contents(field)->dimension;
   double place[3], velocity[3] = {NAN, NAN, NAN};
   char *end = NULL;
   for (int k = 0; k < dimension; ++k, text = end)
     place[k] = strtod(text, &end);
-  const bool there = fg_field_velocity(field, place, velocity);
+  const bool there = tangent ? fg_field_tangent(field, place, velocity)
+                             : fg_field_velocity(field, place, velocity);
   text += strspn(text, " =");
-  if (strncmp(text, "none", 4) == 0)
-    return !there;
+  if (strcmp(text, "none") == 0 || strcmp(text, "there") == 0)
+    return there == (*text == 't');
   for (int k = 0; k < dimension && there; ++k, text = end) {
     const double wanted = strtod(text, &end);
     if (end == text || !(fabs(velocity[k] - wanted) <= 1e-5 * fmax(1.0, fabs(wanted))))
@@ -340,9 +153,10 @@ static inline void assert_items(const situation *s, const char *text, const char
   char item[1024];
   for (; *items; items += strcspn(items, "|"), items += *items == '|') {
     snprintf(item, sizeof item, "%.*s", (int)strcspn(items, "|"), items);
-    const bool without = *item == '!';
-    if (field && strncmp(item, "at ", 3) == 0 ? !is_at(field, item + 3)
-                                              : !strstr(text, item + without) != without)
+    const bool without = *item == '!', tangent = strncmp(item, "tangent ", 8) == 0;
+    const bool at = tangent || strncmp(item, "at ", 3) == 0;
+    if (field && at ? !is_at(field, item + (tangent ? 8 : 3), tangent)
+                    : !strstr(text, item + without) != without)
       fail_msg("%s: '%s' does not hold of\n%s", s->what, item, text);
   }
 }
@@ -358,7 +172,8 @@ static inline void check_reading(sample_file *f, const situation *s,
   const char *const message = fg_context_message(f->context);
   if (status != wanted || (status == FG_STATUS_OK) != (field != NULL))
     fail_msg("%s: status %d, \"%s\"", s->what, (int)status, message);
-  if (s->refused && strncmp(message, f->folder, strlen(f->folder)) != 0)
+  const bool named = strncmp(message, f->folder, strlen(f->folder)) == 0 || s->path;
+  if (s->refused && *message != '\'' && !named)
     fail_msg("%s: no file in \"%s\"", s->what, message);
   assert_items(s, message, s->refused ? s->refused : "", NULL);
   if (s->hint && !strstr(fg_context_hint(f->context), s->hint))
@@ -384,20 +199,35 @@ static inline void check_inventory(sample_file *f, const situation *s,
   const fg_status status =
       all ? fg_inventory_read(&inventory, f->context, f->path)
           : fg_inventory_read_chosen(&inventory, f->context, f->path, options);
+  if (strcmp(s->inventory, "refused") == 0) {
+    assert_int_not_equal(status, FG_STATUS_OK);
+    assert_null(inventory);
+    assert_items(s, fg_context_message(f->context), s->refused, NULL);
+    fg_context_clear(f->context);
+    return;
+  }
   if (status != FG_STATUS_OK)
     fail_msg("%s: \"%s\"", s->what, fg_context_message(f->context));
   t.used = 0;
   describe_inventory(&t, inventory);
   assert_items(s, t.text, s->inventory, NULL);
+  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
+  if (fg_inventory_vector_count(inventory) == 1 && !v->unusable) {
+    fg_read_defaults d;
+    assert_int_equal(fg_read_defaults_find(&d, f->context, f->path, options),
+                     FG_STATUS_OK);
+    if (d.level != v->usual_level || strcmp(d.absent, v->absent ? v->absent : ""))
+      fail_msg("%s: defaults are level %d, '%s' absent", s->what, d.level, d.absent);
+  }
   fg_inventory_destroy(inventory);
 }
 
-static inline void check_situation(sample_file *f, const situation *s)
+static inline void check_situation(const sample_file *of, const situation *s)
 {
   fg_read_options options = s->options;
-  sample_file second = *f, mesh = *f;
-  snprintf(second.path, sizeof second.path, "%s/second.nc", f->folder);
-  snprintf(mesh.path, sizeof mesh.path, "%s/mesh.nc", f->folder);
+  sample_file here = *of, second = *of, mesh = *of, *const f = &here;
+  snprintf(second.path, sizeof second.path, "%.63s/second.nc", f->folder);
+  snprintf(mesh.path, sizeof mesh.path, "%.63s/mesh.nc", f->folder);
   if (s->second) {
     notation_write(&second, s->second, s->mode);
     options.vars_from = second.path;
@@ -408,6 +238,14 @@ static inline void check_situation(sample_file *f, const situation *s)
   }
   if (s->file)
     notation_write(f, s->file, s->mode);
+  if (s->path)
+    snprintf(f->path, sizeof f->path, "%s", s->path);
+  if (s->text) {
+    FILE *file = fopen(f->path, "w");
+    assert_non_null(file);
+    fputs(s->text, file);
+    assert_int_equal(fclose(file), 0);
+  }
   if (s->field || s->refused)
     check_reading(f, s, &options);
   if (s->inventory)
