@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "flowgrain/inventory.h"
@@ -149,6 +150,37 @@ static inline bool is_at(const fg_field *field, const char *text, bool tangent)
   return there;
 }
 
+/* "linear u0 ux uy v0 vx vy[ within 0.01]": of a field that is there for a quarter of its
+ * samples at least, and everywhere that function of their place. */
+static inline bool is_linear(const fg_field *field, const char *text)
+{
+  const fg_field_arrays *a = fg_field_contents(field);
+  const int d = a->dimension;
+  double factor[3][4] = {{0}}, tolerance = 1e-4;
+  int found = 0, all = d == 3 ? a->size[2] : 1;
+  char *end = NULL;
+  for (int n = 0; n < d * (d + 1); ++n, text = end)
+    factor[n / (d + 1)][n % (d + 1)] = strtod(text, &end);
+  if (strncmp(text, " within ", 8) == 0)
+    tolerance = strtod(text + 8, NULL);
+  all *= a->size[0] * a->size[1];
+  for (int n = 0; n < all; ++n) {
+    const int at[3] = {n % a->size[0], n / a->size[0] % a->size[1],
+                       n / a->size[0] / a->size[1]};
+    if (isnan(a->velocity[0][n]) || isnan(a->velocity[1][n]))
+      continue;
+    ++found;
+    for (int c = 0; c < d; ++c) {
+      double wanted = factor[c][0];
+      for (int k = 0; k < d; ++k)
+        wanted += factor[c][k + 1] * a->axis[k][at[k]];
+      if (!(fabs((double)a->velocity[c][n] - wanted) <= tolerance))
+        return false;
+    }
+  }
+  return 4 * found >= all;
+}
+
 static inline void assert_items(const situation *s, const char *text, const char *items,
                                 const fg_field *field)
 {
@@ -157,8 +189,9 @@ static inline void assert_items(const situation *s, const char *text, const char
     snprintf(item, sizeof item, "%.*s", (int)strcspn(items, "|"), items);
     const bool without = *item == '!', tangent = strncmp(item, "tangent ", 8) == 0;
     const bool at = tangent || strncmp(item, "at ", 3) == 0;
-    if (field && at ? !is_at(field, item + (tangent ? 8 : 3), tangent)
-                    : !strstr(text, item + without) != without)
+    if (field && strncmp(item, "linear ", 7) == 0 ? !is_linear(field, item + 7)
+        : field && at ? !is_at(field, item + (tangent ? 8 : 3), tangent)
+                      : !strstr(text, item + without) != without)
       fail_msg("%s: '%s' does not hold of\n%s", s->what, item, text);
   }
 }

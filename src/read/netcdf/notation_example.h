@@ -80,21 +80,39 @@ static inline int notation_list(double *out, const char *text)
   return count;
 }
 
-/* The number at a sample's indices by "1 lon 2 lat 0.5". */
+/* A variable's number at the indices along `rank` dimensions, which have its own. */
+static inline double notation_value(const sample_file *f, const char *name, int rank,
+                                    const int *dimension, const size_t *index)
+{
+  int id, own, along[MOST_RANK];
+  size_t at[MOST_RANK] = {0};
+  double value;
+  sample_write(f);
+  nc_must(nc_inq_varid(f->id, name, &id));
+  nc_must(nc_inq_varndims(f->id, id, &own));
+  nc_must(nc_inq_vardimid(f->id, id, along));
+  for (int k = 0; k < own; ++k)
+    for (int n = 0; n < rank; ++n)
+      at[k] = along[k] == dimension[n] ? index[n] : at[k];
+  nc_must(nc_get_var1_double(f->id, id, at, &value));
+  return value;
+}
+
+/* The number at a sample's indices by "1 lon 2 @lat 0.5". */
 static inline double notation_linear(const sample_file *f, const char *text, int rank,
                                      const int *dimension, const size_t *index)
 {
   char *end;
   double value = strtod(text, &end);
   while (*(end += strspn(end, " "))) {
-    char name[NC_MAX_NAME + 1];
-    const size_t bytes = strcspn(end, " ");
-    const char *const begin = end;
-    const double step = strtod(end + bytes, &end);
+    char name[NC_MAX_NAME + 1], own[NC_MAX_NAME + 1];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(end, " "), end);
+    const double step = strtod(end + strlen(name), &end);
+    if (*name == '@')
+      value += step * notation_value(f, name + 1, rank, dimension, index);
     for (int k = 0; k < rank; ++k) {
-      nc_must(nc_inq_dimname(f->id, dimension[k], name));
-      if (strlen(name) == bytes && strncmp(name, begin, bytes) == 0)
-        value += step * (double)index[k];
+      nc_must(nc_inq_dimname(f->id, dimension[k], own));
+      value += strcmp(name, own) == 0 ? step * (double)index[k] : 0.0;
     }
   }
   return value;

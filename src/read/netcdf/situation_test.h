@@ -11,7 +11,8 @@ static inline void check_reading(sample_file *f, const situation *s,
   fg_field *field = NULL;
   const fg_status status = fg_field_read(&field, f->context, f->path, options);
   const char *const message = fg_context_message(f->context);
-  const bool named = strncmp(message, f->folder, strlen(f->folder)) == 0 || s->path;
+  const bool named = strncmp(message, f->folder, strlen(f->folder)) == 0 || s->path ||
+                     options->vars_from;
   if (s->refused && *message != '\'' && !named)
     fail_msg("%s: no file in \"%s\"", s->what, message);
   assert_slabs_of_file(f, options, field);
