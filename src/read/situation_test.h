@@ -1,10 +1,10 @@
 /* Situations as rows of a table: what a file has, the options, and what must be read,
  * listed or refused.
  *
- * What is expected is a list with '|' between its items. Each must stand in the message,
- * or in the text that describes the field or the inventory below, or with '!' not; "at X
- * Y[ Z] = U V[ W]" is the field's velocity at a place, "at X Y = none" or "= there" says
- * whether it has one. */
+ * What is expected is a list with '|' between its items. Each must stand in the message
+ * or its hint, or in the text that describes the field or the inventory below, or with
+ * '!' not; "at X Y[ Z] = U V[ W]" is the field's velocity at a place, "at X Y = none" or
+ * "= there" says whether it has one. */
 #ifndef FG__SITUATION_TEST_H
 #define FG__SITUATION_TEST_H
 
@@ -206,11 +206,13 @@ static inline void check_read(fg_context *context, const situation *s, fg_status
   const char *const message = fg_context_message(context);
   if (status != wanted || (status == FG_STATUS_OK) != (field != NULL))
     fail_msg("%s: status %d, \"%s\"", s->what, (int)status, message);
-  assert_items(s, message, s->refused ? s->refused : "", NULL);
+  static text_of t;
+  t.used = 0;
+  add_text(&t, "%s\n%s", message, fg_context_hint(context));
+  assert_items(s, t.text, s->refused ? s->refused : "", NULL);
   if (s->hint && !strstr(fg_context_hint(context), s->hint))
     fail_msg("%s: hint \"%s\"", s->what, fg_context_hint(context));
   if (field) {
-    static text_of t;
     t.used = 0;
     describe_field(&t, field);
     assert_items(s, t.text, s->field ? s->field : "", field);
