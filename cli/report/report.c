@@ -43,7 +43,7 @@ static void add_map(cJSON *input, const fg_map_options *map)
   if (map->has_center)
     add_numbers(object, "center", map->center, map->has_center_latitude ? 2 : 1);
   if (map->has_region)
-    add_numbers(object, "region", map->region, 4);
+    add_numbers(object, "region", map->region, map->region_is_box ? 6 : 4);
   if (map->samples)
     cJSON_AddNumberToObject(object, "samples", map->samples);
 }

@@ -19,6 +19,7 @@ typedef struct fg__scatter {
   int *record;         /* [count], where each stands in the file, or NULL */
   const char *records; /* what that is: "line" */
   bool geographic;     /* longitude and latitude in degrees; east and north */
+  fg__region region;   /* that samples between them are wanted of, of no map */
 } fg__scatter;
 
 void fg__scatter_clear(fg__scatter *points);
