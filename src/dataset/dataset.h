@@ -165,7 +165,7 @@ struct fg__dataset {
   int times;    /* 0: there was no choice */
   bool has_blocks;
   fg__missing_numbers missing;
-  fg__region region; /* that samples are wanted of, where they go on no map */
+  fg__field_region region; /* that samples are wanted of, where they go on no map */
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each

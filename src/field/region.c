@@ -12,7 +12,7 @@
 static const double ROUNDING = 1e-9;
 
 fg_status fg__region_clip(double *low, double *high, fg_context *context,
-                          const char *path, const fg__region *region, int k,
+                          const char *path, const fg__field_region *region, int k,
                           const char *axis)
 {
   const double first = *low, last = *high;
@@ -29,7 +29,7 @@ fg_status fg__region_clip(double *low, double *high, fg_context *context,
 }
 
 fg_status fg__region_find(fg__region_range *out, fg_context *context, const char *path,
-                          const fg__region *region, int k, const char *axis,
+                          const fg__field_region *region, int k, const char *axis,
                           const double *x, size_t size)
 {
   size_t a = 0, b = size - 1;
@@ -78,7 +78,7 @@ static void clear(part *p)
 
 /* The range along each axis; a periodic one ends where its first sample comes again. */
 static fg_status find_ranges(part *p, fg_context *context, const char *path,
-                             const fg__region *region)
+                             const fg__field_region *region)
 {
   const fg_field *whole = p->whole;
   fg_status status = FG_STATUS_OK;
@@ -218,7 +218,7 @@ static fg_status make(fg_field **out, fg_context *context, part *p)
 }
 
 fg_status fg__region_cut(fg_field **field, fg_context *context, const char *path,
-                         const fg__region *region)
+                         const fg__field_region *region)
 {
   part p = {.whole = *field, .arrays = (*field)->contents};
   fg_field *cut = NULL;

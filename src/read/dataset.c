@@ -317,7 +317,7 @@ static const char *describe_polar(vector_texts *texts, const fg__pair *pair,
 
 /* Of the part in the dataset's region, which ends at the region's bounds. */
 static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
-                          const fg__region *region)
+                          const fg__field_region *region)
 {
   for (int k = 0; k < grid->dimension; ++k) {
     const fg__grid_axis *axis = &grid->axis[k];

@@ -71,7 +71,7 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
                     input);
   const fg_status status =
       fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
-  const fg__region region = fg__region_asked(options);
+  const fg__field_region region = fg__region_asked(options);
   return status == FG_STATUS_OK ? fg__region_cut(out, context, input, &region) : status;
 }
 
@@ -105,7 +105,7 @@ static fg_status read_slice(fg_field **out, fg_context *context, const fg_input 
   fg_field *volume = NULL, *whole = NULL;
   fg_plane plane;
   fg_read_options of_volume = *options;
-  const fg__region region = fg__region_asked(options);
+  const fg__field_region region = fg__region_asked(options);
   fg_map_options map;
   if (region.axes == 2) { /* in the plane of the cut */
     map = *options->map;
@@ -154,7 +154,7 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
-  const fg__region region = fg__region_asked(options);
+  const fg__field_region region = fg__region_asked(options);
   for (int k = 0; k < region.axes; ++k)
     key = fg__mix(fg__mix(key ^ bits_of(region.low[k])) ^ bits_of(region.high[k]));
   key = fg__mix(key ^ (uint64_t)options->frame);

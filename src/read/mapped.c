@@ -15,10 +15,10 @@ static bool goes_on_map(const fg_field *field, const fg_map_options *map)
           (arrays->scale == FG_SCALE_MAP && arrays->projection && fg__map_is_named(map)));
 }
 
-fg__region fg__region_asked(const fg_read_options *options)
+fg__field_region fg__region_asked(const fg_read_options *options)
 {
   const fg_map_options *map = options->map;
-  fg__region out = {.axes = 0};
+  fg__field_region out = {.axes = 0};
   if (!fg__map_is_asked(map) || !map->has_region)
     return out;
   out.axes = map->region_is_box ? 3 : 2;
@@ -38,7 +38,8 @@ static bool is_region_alone(const fg_map_options *map)
 
 /* The part of a field in a region, or a slab of it. */
 static fg_status cut(fg_field **out, fg_context *context, fg__file_field *samples,
-                     const char *path, const fg__region *region, fg__slab_index slab)
+                     const char *path, const fg__field_region *region,
+                     fg__slab_index slab)
 {
   fg_status status = fg__region_cut(&samples->field, context, path, region);
   if (status == FG_STATUS_OK && slab.count > 1)
@@ -125,7 +126,7 @@ fg_status fg__file_field_place(fg_field **out, fg_context *context,
                                const fg_read_options *options, fg__slab_index slab)
 {
   const fg_map_options *map = fg__map_is_asked(options->map) ? options->map : NULL;
-  const fg__region region = fg__region_asked(options);
+  const fg__field_region region = fg__region_asked(options);
   fg_status status = FG_STATUS_OK;
   *out = NULL;
   if (region.axes == 3 && (samples->sphere || goes_on_map(samples->field, map)))

@@ -19,7 +19,7 @@ fg_status fg__file_field_read(fg__file_field *out, fg_context *context,
 
 /* The part of a field on no map that options ask for; a cut by a plane has a region in
  * its own two axes. */
-fg__region fg__region_asked(const fg_read_options *options);
+fg__field_region fg__region_asked(const fg_read_options *options);
 
 /* Makes a slab of the field. Where options->map chooses a map, a field in longitude and
  * latitude is projected to it; a file's own plane stays as it is under "auto" alone, and

@@ -108,16 +108,23 @@ static void clear(float *velocity[3], double *axis[3])
   }
 }
 
+/* Whether the dataset's region is one in the axes of a grid, whose samples are not yet
+ * those of the region alone. */
+static bool has_region(const fg__dataset *data, const fg__grid *grid)
+{
+  return data->region.axes > 0 && data->region.axes <= grid->dimension &&
+         !grid->domain->cells && grid->scale != FG_SCALE_GEO && !grid->projection[0];
+}
+
 /* Of a grid along axes only the rows that the dataset's region needs. */
 static fg_status find_rows(fg__rows *rows, fg__grid *part, const fg__dataset *data,
                            const fg__grid *grid, const double *axis)
 {
   const int last = grid->dimension - 1;
-  const fg__region *region = &data->region;
+  const fg__field_region *region = &data->region;
   fg__region_range range;
   *part = *grid;
-  if (region->axes <= last || region->axes > grid->dimension || grid->domain->cells ||
-      grid->scale == FG_SCALE_GEO || grid->projection[0])
+  if (!has_region(data, grid) || region->axes <= last)
     return FG_STATUS_OK;
   const fg_status status =
       fg__region_find(&range, data->context, data->file[0].path, region, last,
@@ -209,6 +216,25 @@ fg_status fg__space_count(fg_inventory_vector *vector, const fg__dataset *data,
   return FG_STATUS_OK;
 }
 
+/* Size and bounds of the part in the dataset's region. */
+static fg_status describe_part(fg_inventory_vector *vector, const fg__dataset *data,
+                               const fg__grid *grid)
+{
+  double *axis[3] = {NULL, NULL, NULL};
+  fg_status status = create_axes(axis, data, grid->domain);
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k) {
+    fg__region_range part;
+    status = fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
+                             grid->axis[k].name, axis[k], grid->axis[k].size);
+    vector->size[k] = (int)part.count;
+    vector->bounds[2 * k] = part.low;
+    vector->bounds[2 * k + 1] = part.high;
+  }
+  for (int k = 0; k < 3; ++k)
+    free(axis[k]);
+  return status;
+}
+
 fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *data,
                              const fg__pair *pair, const fg__grid *grid)
 {
@@ -229,5 +255,5 @@ fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *dat
     if (status != FG_STATUS_OK)
       return status;
   }
-  return FG_STATUS_OK;
+  return has_region(data, grid) ? describe_part(vector, data, grid) : FG_STATUS_OK;
 }
