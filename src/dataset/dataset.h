@@ -6,6 +6,7 @@
 
 #include "base/context.h"
 #include "field/cell_types.h"
+#include "field/region.h"
 #include "terms/coordinates.h"
 
 enum {
@@ -164,6 +165,7 @@ struct fg__dataset {
   int times;    /* 0: there was no choice */
   bool has_blocks;
   fg__missing_numbers missing;
+  fg__field_region region; /* that samples are wanted of, where they go on no map */
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
