@@ -265,7 +265,7 @@ static void print_reading(const listing *list)
   print_place("level", &list->places.level, list->facts.levels, field->level);
   if (field->projection)
     printf("  projection: %s\n", clean_text(text, field->projection));
-  if (list->reading.map.has_region)
+  if (list->reading.map.has_region && field->projection)
     printf("  region: %g to %g east, %g to %g north\n", list->reading.map.region[0],
            list->reading.map.region[1], list->reading.map.region[2],
            list->reading.map.region[3]);

@@ -32,7 +32,7 @@ static void add_map(cJSON *input, const fg_map_options *map)
   if (map->has_center)
     json_add_numbers(object, "center", map->center, map->has_center_latitude ? 2 : 1);
   if (map->has_region)
-    json_add_numbers(object, "region", map->region, 4);
+    json_add_numbers(object, "region", map->region, map->region_is_box ? 6 : 4);
   if (map->samples)
     cJSON_AddNumberToObject(object, "samples", map->samples);
 }

@@ -15,7 +15,5 @@ const fg__format fg__format_vtkhdf = {
     .files = "VTKHDF images, unstructured grids and polygons (.vtkhdf, .hdf)",
     .is_mine = fg__is_vtkhdf,
     .inventory = inventory_hook,
-    .inventory_chosen = chosen_hook,
-    .defaults = defaults_hook,
     .sphere = sphere_hook,
     .read = read_hook};

@@ -14,7 +14,5 @@ const fg__format fg__format_xdmf = {.name = "XDMF",
                                     .files = "XDMF grids and meshes (.xdmf, .xmf)",
                                     .is_mine = fg__is_xdmf,
                                     .inventory = inventory_hook,
-                                    .inventory_chosen = chosen_hook,
-                                    .defaults = defaults_hook,
                                     .sphere = sphere_hook,
                                     .read = read_hook};
