@@ -80,8 +80,6 @@ static void pass_answer(fg__wire *wire, fg__answer *answer, fg_status *status,
   if (*status != FG_STATUS_OK) {
     fg__wire_text(wire, &texts[0]);
     fg__wire_text(wire, &texts[1]);
-  } else if (kind == FG__ASK_DEFAULTS) {
-    fg__wire_bytes(wire, &answer->defaults, sizeof answer->defaults);
   } else if (kind == FG__ASK_FIELD) {
     fg__wire_field(wire, &answer->field);
   } else {

@@ -117,25 +117,19 @@ static fg_status read_any(fg_field **out, fg_context *context, const fg__source 
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__source *source, const fg_read_options *options)
-{
-  (void)context, (void)source, (void)options;
-  *out = (fg_read_defaults){3, "lat, lon"};
-  return FG_STATUS_OK;
-}
-
 static fg_status list(fg_inventory *inventory, fg_context *context,
-                      const fg__source *source)
+                      const fg__source *source, const fg_read_options *options)
 {
   static const fg_axis_value level[] = {{850.0, "hPa", "850 hPa"},
                                         {(double)NAN, "", "top"}};
-  (void)source;
+  (void)source, (void)options;
   fg_inventory_vector vector = {.components = 2,
                                 .name = {"u", "v"},
                                 .units = "m/s",
                                 .times = 4,
                                 .levels = 2,
+                                .usual_level = 3,
+                                .absent = "lat, lon",
                                 .level_value = level,
                                 .plane = "+proj=laea",
                                 .axis_name = {"along"}};
@@ -145,7 +139,7 @@ static fg_status list(fg_inventory *inventory, fg_context *context,
 }
 
 static const fg__format made_up = {
-    .name = "made up", .read = read_any, .defaults = find_defaults, .inventory = list};
+    .name = "made up", .read = read_any, .inventory = list};
 
 /* Three inputs of one kind: the second is isolated. */
 static fg_input input_of(const char *library)
