@@ -86,8 +86,9 @@ static const option_entry input_entries[] = {
     {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map),
      .help = "middle of the map, degrees [from what the field or --region covers]"},
     {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map),
-     .help = "part of the globe to show: west, east, south, north in degrees [all that "
-             "the field covers]"},
+     .help = "part to show: of the globe west, east, south, north in degrees; of another "
+             "plane X0,X1,Y0,Y1 and of a volume X0,X1,Y0,Y1,Z0,Z1, in units of its axes, "
+             "read at the part's own resolution [all that the field covers]"},
     {"projection", 0, "MAP", COMMAND_DRAW, OPTION_TEXT, OWN(draw, map.projection),
      .help = "draw on another map, as `flowgrain run` has them; arrows keep their lines "
              "on the globe [the run's]"},

@@ -149,8 +149,9 @@ typedef struct fg__grid {
   char time_name[FG__DIMENSION_BYTES], level_name[FG__DIMENSION_BYTES];
   fg_scale scale;
   char projection[2 * FG__TEXT_BYTES]; /* PROJ string of scale MAP; "": not known */
-  bool points_east; /* components along east and north, not along the axes */
-  size_t samples;   /* product of the axes' sizes */
+  bool points_east;             /* components along east and north, not along the axes */
+  size_t samples;               /* product of the axes' sizes */
+  const struct fg__grid *whole; /* of which it is the part in a region; or NULL */
   const fg__variable
       *hidden; /* true where a sample is not to be used (numpy.ma), or NULL */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */

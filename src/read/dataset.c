@@ -81,10 +81,50 @@ static size_t name_gaps(char doubts[FG__REASON_BYTES], const fg__grid *grid)
   return gaps;
 }
 
+/* The part of a grid that the dataset's region needs, where the field goes on no map and
+ * its axes are plain ones; else all of it. */
+static fg_status find_part(fg__grid *out, const fg__dataset *data, const fg__pair *pair,
+                           const fg__grid *grid)
+{
+  char plane[FG__TEXT_BYTES];
+  bool plain =
+      data->region.axes > 0 && data->region.axes <= grid->dimension &&
+      grid->scale != FG_SCALE_GEO && !has_two_layers(grid) &&
+      (grid->scale != FG_SCALE_MAP ||
+       !(grid->projection[0] || fg__axes_plane(plane, pair->component[0], grid)));
+  for (int k = 0; k < grid->dimension; ++k)
+    plain = plain && !(grid->axis[k].period > 0.0) &&
+            fg__axis_gaps(grid->axis[k].coordinate, grid->axis[k].size) == 0;
+  *out = *grid;
+  if (!plain)
+    return FG_STATUS_OK;
+  out->whole = grid;
+  out->samples = 1;
+  for (int k = 0; k < grid->dimension; ++k) {
+    fg__grid_axis *axis = &out->axis[k];
+    fg__region_range part;
+    const fg_status status =
+        fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
+                        axis->name, axis->coordinate, axis->size);
+    if (status != FG_STATUS_OK)
+      return status;
+    axis->first += axis->reversed ? axis->size - part.first - part.count : part.first;
+    axis->coordinate += part.first;
+    axis->size = part.count;
+    out->samples *= part.count;
+  }
+  return FG_STATUS_OK;
+}
+
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
-                            const fg__grid *grid, const fg_read_options *options,
+                            const fg__grid *whole, const fg_read_options *options,
                             fg__slab_index slab)
 {
+  fg__grid part;
+  const fg__grid *grid = &part;
+  fg_status status = find_part(&part, data, pair, whole);
+  if (status != FG_STATUS_OK)
+    return status;
   fg__vector_words words;
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
@@ -92,18 +132,20 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   char doubts[FG__REASON_BYTES];
   double *axis[3] = {NULL, NULL, NULL}; /* with lines in gaps */
   memcpy(doubts, grid->doubts, sizeof doubts);
-  const bool gaps = name_gaps(doubts, grid) > 0;
-  if (last->period > 0.0 || has_two_layers(grid) || gaps)
+  const bool gaps = !grid->whole && name_gaps(doubts, grid) > 0;
+  const bool layers = !grid->whole && has_two_layers(grid);
+  if (last->period > 0.0 || layers || gaps)
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
-  fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
+  status = fg__vector_words_find(&words, data, pair, grid, options);
   if (status == FG_STATUS_OK)
     status =
         fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)options->time,
                                   (size_t)options->level, options->mask);
   if (status == FG_STATUS_OK && grid->dimension == 2)
     status = fg__projection_turn(read.velocity, data, grid, &rows);
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
+  const bool all = slab.count == 1 && !grid->whole;
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && all; ++k)
     status = check_missing(data, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
     fg_field_arrays arrays = {.dimension = grid->dimension,
@@ -139,9 +181,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples_clear(&read);
   for (int k = 0; k < 3; ++k)
     free(axis[k]);
-  return status == FG_STATUS_OK && has_two_layers(grid)
-             ? fg__drop_layer(out, data->context)
-             : status;
+  return status == FG_STATUS_OK && layers ? fg__drop_layer(out, data->context) : status;
 }
 
 static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int level)
@@ -276,7 +316,9 @@ static const char *describe_polar(vector_texts *texts, const fg__pair *pair,
   return texts->frame;
 }
 
-static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
+/* Of the part in the dataset's region, which ends at the region's bounds. */
+static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
+                          const fg__field_region *region)
 {
   for (int k = 0; k < grid->dimension; ++k) {
     const fg__grid_axis *axis = &grid->axis[k];
@@ -285,6 +327,10 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
     if (axis->coordinate) {
       vector->bounds[2 * k] = axis->coordinate[0];
       vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
+    }
+    if (grid->whole && k < region->axes) {
+      vector->bounds[2 * k] = fmax(vector->bounds[2 * k], region->low[k]);
+      vector->bounds[2 * k + 1] = fmin(vector->bounds[2 * k + 1], region->high[k]);
     }
   }
 }
@@ -349,7 +395,12 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
   if (on_axes) {
-    describe_axes(&vector, grid);
+    fg__grid part = *grid;
+    if (status == FG_STATUS_OK && !grid->unusable[0])
+      status = find_part(&part, data, pair, grid);
+    if (status != FG_STATUS_OK)
+      return status;
+    describe_axes(&vector, &part, &data->region);
     name_gaps(grid->doubts, grid);
   }
   if (grid->domain && status == FG_STATUS_OK)

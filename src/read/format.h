@@ -31,11 +31,13 @@ typedef struct fg__format {
 } fg__format;
 
 extern const fg__format fg__format_exodus; /* of NetCDF files: before these */
+extern const fg__format fg__format_vtkhdf; /* of HDF5: the same */
 extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
 extern const fg__format fg__format_vtk_series;
+extern const fg__format fg__format_xdmf;
 extern const fg__format fg__format_npy;
 extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */

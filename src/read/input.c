@@ -65,10 +65,15 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   if (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: an analytic field is neither on the globe nor on a map", input);
-  if (fg__map_is_named(options->map))
+  const fg_map_options *map = options->map;
+  if (fg__map_is_asked(map) &&
+      (map->has_center || (map->projection && strcmp(map->projection, "auto") != 0)))
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: an analytic field is on no map",
                     input);
-  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
+  const fg_status status =
+      fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
+  const fg__field_region region = fg__region_asked(options);
+  return status == FG_STATUS_OK ? fg__region_cut(out, context, input, &region) : status;
 }
 
 static fg_status read_file(fg_field **out, fg_context *context, const fg_input *input,
@@ -100,12 +105,23 @@ static fg_status read_slice(fg_field **out, fg_context *context, const fg_input 
 {
   fg_field *volume = NULL, *whole = NULL;
   fg_plane plane;
-  fg_status status = read_slab(&volume, context, input, options, (fg__slab_index){0, 1});
+  fg_read_options of_volume = *options;
+  const fg__field_region region = fg__region_asked(options);
+  fg_map_options map;
+  if (region.axes == 2) { /* in the plane of the cut */
+    map = *options->map;
+    map.has_region = false;
+    of_volume.map = &map;
+  }
+  fg_status status =
+      read_slab(&volume, context, input, &of_volume, (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK)
     status = fg_plane_parse(&plane, context, options->slice, volume);
   if (status == FG_STATUS_OK)
     status = fg_field_slice(&whole, context, volume, &plane);
   fg_field_destroy(volume);
+  if (status == FG_STATUS_OK && region.axes == 2)
+    status = fg__region_cut(&whole, context, input->name, &region);
   if (status == FG_STATUS_OK && slab.count > 1) {
     status = fg__field_slab_of(out, context, whole, slab);
     fg_field_destroy(whole);
@@ -122,6 +138,13 @@ static uint64_t mix_text(uint64_t key, const char *text)
   return fg__mix(key);
 }
 
+static uint64_t bits_of(double number)
+{
+  uint64_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  return bits;
+}
+
 /* Parts that were read otherwise do not belong together. */
 static uint64_t key_of_reading(const char *input, const fg_read_options *options)
 {
@@ -132,6 +155,9 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
+  const fg__field_region region = fg__region_asked(options);
+  for (int k = 0; k < region.axes; ++k)
+    key = fg__mix(fg__mix(key ^ bits_of(region.low[k])) ^ bits_of(region.high[k]));
   key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }

@@ -1,5 +1,6 @@
 /* Opening of files whose decoders fill a dataset. */
 #include "read/dataset.h"
+#include "read/mapped.h"
 #include "sample/space/space.h"
 
 /* What files of that kind, or this one, leave to choose from. */
@@ -31,6 +32,8 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = fg__settle_names(data);
+  if (options && options->scale != FG_SCALE_GEO)
+    data->region = fg__region_asked(options);
   return status == FG_STATUS_OK && data->space.is_there ? fg__space_domain_open(data)
                                                         : status;
 }

@@ -364,6 +364,7 @@ static void only_libraries_that_crash_are_isolated(void **state)
     const char *library;
   } cases[] = {{"\211HDF\r\n\032\n....", 12, "HDF5"},
                {"a heading\nGRIB\0\0\0\2\0\0\0\0\0\0\1\0", 26, "ecCodes"},
+               {"<Xdmf Version='3'/>", 19, "HDF5"},
                {"CDF\001........", 12, NULL},
                {"x,y,u,v\n0,0,1,1\n", 16, NULL}};
   (void)state;
@@ -387,6 +388,32 @@ static void only_libraries_that_crash_are_isolated(void **state)
   }
 }
 
+/* Time and memory of a child process are by the bytes of all that it may read. */
+static void what_markup_names_counts(void **state)
+{
+  static const char markup[] = "<Xdmf a:b='c'><D>b.h5:/U</D><D>\nb.h5:/V </D></Xdmf>";
+  static const char stored[] = "\211HDF\r\n\032\n....";
+  char folder[] = "/tmp/flowgrain-isolate-XXXXXX", path[64], other[64];
+  (void)state;
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/a.xdmf", folder);
+  snprintf(other, sizeof other, "%s/b.h5", folder);
+  FILE *file = fopen(other, "wb");
+  assert_non_null(file);
+  fwrite(stored, 1, 12, file);
+  fclose(file);
+  fg_input input = {.source = {.path = path,
+                               .on_disk = true,
+                               .bytes = (const unsigned char *)markup,
+                               .size = sizeof markup - 1}};
+  fg__isolation found;
+  fg__isolation_find(&found, &input);
+  assert_same_word(found.library, "HDF5");
+  assert_int_equal(found.bytes, sizeof markup - 1 + 12);
+  unlink(other);
+  rmdir(folder);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -400,6 +427,7 @@ int main(void)
       CASE(a_stop_ends_it),
       CASE(it_ends_with_its_parent),
       CASE(only_libraries_that_crash_are_isolated),
+      CASE(what_markup_names_counts),
   };
   return cmocka_run_group_tests_name("read/isolate", tests, NULL, NULL);
 }

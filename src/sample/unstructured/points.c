@@ -221,6 +221,7 @@ static fg_status make_scatter(fg__scatter *out, size_t *missing,
                        .count = count,
                        .dimension = fg__places_dimension(mesh, r->pair),
                        .records = decoder->records ? decoder->records : "point"};
+  out->region = r->region;
   out->geographic = !mesh->in_plane && out->dimension == 2;
   fg_status status = valid ? read_velocity(velocity, r, out->dimension)
                            : fg__fail_memory(r->data->context, "points", 2 * count);
