@@ -262,7 +262,8 @@ static inline void check_text(fg_context *context, const situation *s)
     fg_inventory *inventory = NULL;
     assert_int_equal(fg__inventory_create(&inventory, context, format->name),
                      FG_STATUS_OK);
-    check_listed(context, s, format->inventory(inventory, context, &source), inventory);
+    check_listed(context, s, format->inventory(inventory, context, &source, &s->options),
+                 inventory);
   }
   free(bytes);
 }

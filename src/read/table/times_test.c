@@ -84,62 +84,6 @@ static void write_soundings(char *text, size_t size, int rows, bool side_by_side
 
 static void levels_are_found_by_their_scatter(void **state)
 {
-<<<<<<< HEAD
-  static const struct {
-    int rows;
-    bool side_by_side;
-    int levels;
-    const char *told; /* of the rows; NULL: nothing */
-  } cases[] = {{8, false, 2, NULL},
-               {7, false, 1, "rows of every height, 0 to 100, are one field"},
-               {8, true, 1, "rows of every height, 0 to 100, are one field"}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[1024];
-    write_soundings(text, sizeof text, cases[i].rows, cases[i].side_by_side);
-    const fg__source source = source_of(text);
-    fg_inventory *inventory = NULL;
-    assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-    assert_int_equal(fg__format_table.inventory(inventory, *state, &source, NULL),
-                     FG_STATUS_OK);
-    const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
-    assert_int_equal(v->levels, cases[i].levels);
-    assert_int_equal(v->doubts != NULL, cases[i].told != NULL);
-    assert_true(!cases[i].told || strcmp(v->doubts, cases[i].told) == 0);
-    fg_inventory_destroy(inventory);
-  }
-}
-
-/* Planes one above another with two components are levels. */
-static void levels_are_chosen(void **state)
-{
-  static const char text[] =
-      "x,y,u,v,depth [m]\n1.5,10,1,0,50\n2.5,10,2,0,50\n3.5,10,3,0,50\n1.5,20,4,0,50\n"
-      "2.5,20,5,0,50\n3.5,20,6,0,50\n1.5,10,11.5,-.25,5\n2.5,10,12.5,-.25,5\n"
-      "3.5,10,13.5,-.25,5\n1.5,20,21.5,-.25,5\n2.5,20,22.5,-.25,5\n3.5,20,23.5,-.25,5\n";
-  fg_field *field = read_text(*state, text);
-  assert_string_equal(fg_field_contents(field)->level, "depth 5 m");
-  check_small(field, -1);
-  field = read_with(*state, text, &(fg_read_options){.level = 1});
-  for (int n = 0; n < 6; ++n)
-    assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
-  fg_field_destroy(field);
-  const fg__source source = source_of(text);
-  fg_inventory *inventory = NULL;
-  assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-  assert_int_equal(fg__format_table.inventory(inventory, *state, &source, NULL),
-                   FG_STATUS_OK);
-  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
-  assert_int_equal(v->levels, 2);
-  assert_true(v->level_value[0].value == 5.0 && v->level_value[1].value == 50.0);
-  assert_string_equal(v->level_value[1].units, "m");
-  fg_inventory_destroy(inventory);
-  assert_int_equal(fg__format_table.read(&field, *state, &source,
-                                         &(fg_read_options){.level = 2},
-                                         (fg__slab_index){0, 1}),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "level 2 asked for"));
-  fg_context_clear(*state);
-=======
   static const char ONE_FIELD[] =
       "levels 1\n|doubts 'rows of every height, 0 to 100, are one field'";
   char text[1024];
@@ -152,7 +96,6 @@ static void levels_are_chosen(void **state)
   write_soundings(text, sizeof text, 8, true);
   check_text(*state,
              &(situation){.what = "side by side", .text = text, .inventory = ONE_FIELD});
->>>>>>> tests
 }
 
 /* What is kept of one time is not taken for another, whose levels differ. */
