@@ -188,6 +188,11 @@ fg_status fg__variable_add_numbers(fg__variable *variable, const char *name,
  * has. MEMORY. */
 fg_status fg__dataset_split(fg__dataset *dataset, int components);
 
+/* Takes over the times that a file has, from which number `wanted` is chosen. ARGUMENT.
+ */
+fg_status fg__dataset_choose_time(fg__dataset *dataset, const char *path, double *time,
+                                  size_t times, int wanted);
+
 void fg__dataset_close(fg__dataset *dataset);
 
 /* topology.c. The points that a piece of a file has, from `first` on. */

@@ -248,15 +248,16 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
 }
 
 /* Two layers of a volume may be a plane. */
-static void describe_layers(fg_inventory_vector *vector, const fg__dataset *data,
-                            const fg__pair *pair, const fg__grid *grid)
+static void describe_layers(fg_inventory_vector *vector, char name[3][FG__TEXT_BYTES],
+                            const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid)
 {
   const fg_read_options first = fg__first_samples(pair, grid);
   fg_field *field = NULL;
   if (make_field(&field, data, pair, grid, &first, (fg__slab_index){0, 1}))
     fg_context_clear(data->context);
   if (field && fg_field_contents(field)->dimension == 2)
-    fg__describe_field(vector, field);
+    fg__describe_field(vector, name, field);
   fg_field_destroy(field);
 }
 
@@ -287,7 +288,7 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 /* Texts that a vector of the inventory points to. */
 typedef struct vector_texts {
   char units[FG__TEXT_BYTES], plane[FG__TEXT_BYTES], chosen[FG__TEXT_BYTES];
-  char polar[FG__TEXT_BYTES];
+  char polar[FG__TEXT_BYTES], axis_name[3][FG__TEXT_BYTES];
   char frame[3 * FG__TEXT_BYTES + 4];    /* a projection, and its directions */
   char unusable[3 * FG__TEXT_BYTES + 2]; /* the reason and the hint */
 } vector_texts;
@@ -322,6 +323,7 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
   for (int k = 0; k < grid->dimension; ++k) {
     const fg__grid_axis *axis = &grid->axis[k];
     vector->size[k] = (int)axis->size;
+    vector->axis_name[k] = axis->name;
     if (axis->coordinate) {
       vector->bounds[2 * k] = axis->coordinate[0];
       vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
@@ -334,8 +336,9 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
 }
 
 /* Fills in what requires reading the mesh or all samples. */
-static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset *data,
-                                  const fg__pair *pair, fg__grid *grid)
+static fg_status describe_samples(fg_inventory_vector *vector, vector_texts *texts,
+                                  const fg__dataset *data, const fg__pair *pair,
+                                  fg__grid *grid)
 {
   if (grid->mesh)
     return fg__curvilinear_describe(vector, data, pair, grid);
@@ -344,7 +347,7 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
   if (grid->domain)
     return fg__space_count(vector, data, pair, grid);
   if (has_two_layers(grid))
-    describe_layers(vector, data, pair, grid);
+    describe_layers(vector, texts->axis_name, data, pair, grid);
   return fg__velocity_missing(&vector->missing_share, data, pair, grid);
 }
 
@@ -410,7 +413,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
     if (on_axes && !grid->projection[0])
       vector.plane = fg__axes_plane(texts.plane, pair->component[0], grid);
     if (status == FG_STATUS_OK && reads)
-      status = describe_samples(&vector, data, pair, grid);
+      status = describe_samples(&vector, &texts, data, pair, grid);
     if (status == FG_STATUS_ARGUMENT) { /* an option decides */
       status = FG_STATUS_OK;
       take_refusal(texts.unusable, sizeof texts.unusable, data);
@@ -460,16 +463,5 @@ fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
   fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
-  return fg__vector_choice_leave(c, status);
-}
-
-fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__dataset_format *format, const fg__source *source,
-                               const fg_read_options *options)
-{
-  fg__vector_choice *c;
-  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
-  if (status == FG_STATUS_OK)
-    status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
   return fg__vector_choice_leave(c, status);
 }

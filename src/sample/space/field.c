@@ -247,8 +247,7 @@ fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *dat
   for (int k = 0; k < domain->dimension; ++k) {
     double *bounds = &vector->bounds[2 * k];
     vector->size[k] = (int)domain->size[k];
-    if (domain->dimension == 2)
-      vector->axis_name[k] = fg__space_domain_axis_name(domain, k);
+    vector->axis_name[k] = fg__space_domain_axis_name(domain, k);
     fg_status status = fg__space_domain_coordinates(&bounds[0], data, k, 0, 1);
     if (status == FG_STATUS_OK)
       status = fg__space_domain_coordinates(&bounds[1], data, k, domain->size[k] - 1, 1);

@@ -469,7 +469,7 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
     fg__sphere_extent_of(&extent, sphere);
     fg__globe_describe(vector, &extent);
   } else if (status == FG_STATUS_OK) {
-    fg__describe_field(vector, field);
+    fg__describe_field(vector, grid->unstructured->axis_name, field);
   }
   vector->missing_share = (double)missing / (double)grid->samples;
   if (field && is_on_points(&r))
