@@ -50,7 +50,7 @@ static const option_entry picture_entries[] = {
      .help = "texts of .svg and .pdf as shapes, which look the same without their "
              "font, instead of texts, which can be searched and edited"},
     {"speed-range", 0, "A,B", PICTURES | COMMAND_TEXTURE, OPTION_RANGE,
-     PICTURE(speed_range), 0, 1e15,
+     PICTURE(speed_range), 0, 1e30,
      .help = "speeds at the ends of the colour key; what is slower or faster has the "
              "end's colour [those of the arrows, but for few that are far above the "
              "others; texture: of the field, but for its fastest hundredth]"},

@@ -12,10 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Larger coordinates are refused: 1e20 and more are customary fill values, and the
- * squares of those up to here are far from overflow in double. */
-static const double LARGEST_COORDINATE = 1e18;
-
 /* Rows a rounding error beyond the pole are taken (90.00001 in float), none farther. */
 static const double LARGEST_LATITUDE = 90.001;
 
@@ -28,7 +24,8 @@ static fg_status check_axis(fg_context *context, const fg_field_arrays *arrays, 
     return fg__fail(context, FG_STATUS_ARGUMENT, "field: the %c axis is missing",
                     letter[k]);
   for (int i = 0; i < n; ++i) {
-    if (!isfinite(axis[i]) || fabs(axis[i]) > LARGEST_COORDINATE)
+    if (!isfinite(axis[i]) || fabs(axis[i]) > fg__largest_number ||
+        fg__is_apart_coordinate(axis, (size_t)n, (size_t)i))
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "field: coordinate %d of the %c axis is %g, not a usable number", i,
                       letter[k], axis[i]);
@@ -39,7 +36,7 @@ static fg_status check_axis(fg_context *context, const fg_field_arrays *arrays, 
           letter[k], axis[i - 1], axis[i], i);
   }
   const double period = arrays->period[k];
-  if (period != 0.0 && !(period <= LARGEST_COORDINATE && axis[0] + period > axis[n - 1] &&
+  if (period != 0.0 && !(period <= fg__largest_number && axis[0] + period > axis[n - 1] &&
                          isfinite(1.0 / (axis[0] + period - axis[n - 1]))))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "field: the %c axis from %g to %g does not fit its period %g",
@@ -169,6 +166,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
 {
   const size_t count = fg__field_held(field); /* check_size: no overflow */
   const size_t own = own_samples(field);
+  fg__fastest fastest = {.speed = 0.0};
   for (int k = 0; k < arrays->dimension; ++k) {
     field->velocity[k] = taken ? taken[k] : fg__allocate(count, sizeof(float));
     if (!field->velocity[k])
@@ -189,11 +187,11 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
     for (int k = 0; k < arrays->dimension; ++k) {
       const float value = valid ? arrays->velocity[k][i] : NAN;
       field->velocity[k][i] = value;
-      if (fabs((double)value) > fg__field_largest_speed)
-        return fg__field_fail_speed(field, context, k, (double)value, i);
+      fg__fastest_add(&fastest, (double)value, k, i);
     }
   }
-  return FG_STATUS_OK;
+  return fg__fastest_is_none(&fastest) ? fg__field_fail_speed(field, context, &fastest)
+                                       : FG_STATUS_OK;
 }
 
 static fg_status mark_missing(fg_field *field, fg_context *context)

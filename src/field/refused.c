@@ -1,8 +1,61 @@
 #include "field/refused.h"
 
+#include <math.h>
 #include <stdio.h>
 
-const double fg__field_largest_speed = 1e15;
+const double fg__largest_number = 1e30;
+
+/* What may stand for a missing number is larger: light makes 3e14 um/s, and what is seen
+ * of the universe is 1e27 m wide, but 1e20 and more are customary fill values. */
+static const double SUSPECT_SPEED = 1e15, SUSPECT_COORDINATE = 1e18;
+
+/* Of a suspect speed, of an interval or of a coordinate, all others are below this
+ * share. */
+static const double APART = 1e-6;
+
+bool fg__is_apart_coordinate(const double *x, size_t size, size_t i)
+{
+  const double length = fabs(x[i]);
+  if (!(length > SUSPECT_COORDINATE) || size < 2)
+    return false;
+  if (i > 0 && i + 1 < size)
+    return fabs(x[i - 1]) < APART * length && fabs(x[i + 1]) < APART * length;
+  const double near = x[i == 0 ? 1 : size - 2], far = x[i == 0 ? size - 1 : 0];
+  const double rest = size > 2 ? fabs(far - near) : fabs(near);
+  return rest > 0.0 && APART * fabs(x[i] - near) > rest;
+}
+
+size_t fg__find_apart_position(const double *x, size_t step, size_t count)
+{
+  double largest = 0.0;
+  size_t like = 0, first = count;
+  for (size_t n = 0; n < count; ++n)
+    largest = fmax(largest, fabs(x[n * step]));
+  if (!(largest > SUSPECT_COORDINATE))
+    return count;
+  for (size_t n = count; n-- > 0;)
+    if (fabs(x[n * step]) > APART * largest) {
+      ++like;
+      first = n;
+    }
+  return 2 * like < count ? first : count;
+}
+
+void fg__fastest_add(fg__fastest *fastest, double value, int component, size_t sample)
+{
+  const double speed = fabs(value);
+  if (speed > fastest->speed)
+    *fastest = (fg__fastest){speed, fastest->speed, component, sample};
+  else if (speed < fastest->speed && speed > fastest->next)
+    fastest->next = speed;
+}
+
+bool fg__fastest_is_none(const fg__fastest *fastest)
+{
+  return fastest->speed > fg__largest_number ||
+         (fastest->speed > SUSPECT_SPEED && fastest->next > 0.0 &&
+          fastest->next < APART * fastest->speed);
+}
 
 /* Numbers that stand for missing data in many files. */
 static const float CODES[] = {-999.0F,  -9999.0F, -99999.0F, -999.9F,
@@ -58,15 +111,21 @@ static const char *place_of(char out[PLACE_BYTES], const fg_field *field, size_t
   return out;
 }
 
-fg_status fg__field_fail_speed(const fg_field *field, fg_context *context, int k,
-                               double value, size_t i)
+fg_status fg__field_fail_speed(const fg_field *field, fg_context *context,
+                               const fg__fastest *fastest)
 {
   char place[PLACE_BYTES];
+  const int k = fastest->component;
+  const double value = (double)field->velocity[k][fastest->sample];
+  place_of(place, field, fastest->sample);
   const fg_status status =
-      fg__fail(context, FG_STATUS_ARGUMENT,
-               "field: %s is %g at sample %s; speeds up to %g are taken",
-               field->contents.velocity_name[k], value, place_of(place, field, i),
-               fg__field_largest_speed);
+      fastest->speed > fg__largest_number
+          ? fg__fail(context, FG_STATUS_ARGUMENT,
+                     "field: %s is %g at sample %s; speeds up to %g are taken",
+                     field->contents.velocity_name[k], value, place, fg__largest_number)
+          : fg__fail(context, FG_STATUS_ARGUMENT,
+                     "field: %s is %g at sample %s, and all others are %g at most",
+                     field->contents.velocity_name[k], value, place, fastest->next);
   fg__hint(context, "--missing=%g takes it for missing", value);
   return status;
 }

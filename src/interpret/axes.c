@@ -1,6 +1,7 @@
 /* Coordinates along one axis: read, unwrapped, sorted to ascend, with a period of 360
  * degrees where longitudes go round the globe. */
 #include "base/memory.h"
+#include "field/refused.h"
 #include "interpret/interpret.h"
 
 #include <math.h>
@@ -64,7 +65,8 @@ static bool check_coordinates(fg__grid *grid, const double *x, size_t count,
                               const char *name)
 {
   for (size_t i = 0; i < count; ++i)
-    if (!isfinite(x[i]) || fabs(x[i]) > 1e18) {
+    if (!isfinite(x[i]) || fabs(x[i]) > fg__largest_number ||
+        fg__is_apart_coordinate(x, count, i)) {
       fg__set_unusable(grid->unusable,
                        "coordinate %zu of '%s' is %g, not a usable number", i, name,
                        x[i]);

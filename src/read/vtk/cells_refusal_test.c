@@ -45,7 +45,7 @@ static void wrong_cells_of_xml_are_refused(void **state)
       {"2 1 0 0 1 0<", "2 1 0 0 1 nan<", FG_STATUS_FILE_FORMAT, "cell 1 is at"},
       {"2 1 0 0 1 0<", "2 1 5 0 1 0<", FG_STATUS_UNSUPPORTED, "that is not plane"},
       {"2 1 0 0 1 0<", "2 0 0 0 0 0<", FG_STATUS_UNSUPPORTED, "fill no area"},
-      {"1 5 0<", "1 1e99 0<", FG_STATUS_ARGUMENT, "speeds up to 1e+15"},
+      {"1 5 0<", "1 1e99 0<", FG_STATUS_ARGUMENT, "speeds up to 1e+30"},
   };
   fg_field_destroy(example_field(*state, GOOD_XML, NULL));
   example_try_changes(*state, &fg__format_vti, GOOD_XML, cases,

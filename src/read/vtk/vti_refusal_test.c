@@ -63,8 +63,8 @@ static void wrong_markup_is_refused(void **state)
       {"format='ascii'", "format='binary'", FG_STATUS_FILE_FORMAT, "U"},
       {"7 1 7", "7 one 7", FG_STATUS_FILE_FORMAT, "12 numbers promised, 1 found"},
       {"7 1 7", "7 1 7 7", FG_STATUS_FILE_FORMAT, "after its 12 numbers"},
-      {"7 1 7", "7 1e99 7", FG_STATUS_ARGUMENT, "speeds up to 1e+15"},
-      {"7 1 7", "7 -1e16 7", FG_STATUS_ARGUMENT, "speeds up to 1e+15"},
+      {"7 1 7", "7 1e99 7", FG_STATUS_ARGUMENT, "speeds up to 1e+30"},
+      {"7 1 7", "7 -1e16 7", FG_STATUS_ARGUMENT, "is -1e+16 at sample"},
       {"7 1 7", "7 &x; 7", FG_STATUS_FILE_FORMAT, "not XML"},
   };
   example_try_changes(*state, &fg__format_vti, GOOD, cases,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "field/refused.h"
 #include "sample/cells/set.h"
 
 /* Fuzzing takes rasters of fewer samples: what it tries in a second is what counts. */
@@ -70,6 +71,20 @@ static cell_box box_of(const fg__cell_set *set, size_t cell)
   return box;
 }
 
+/* A few points far beyond all others have no place: what stands there is a fill value. */
+static fg_status check_apart(const fg__cell_set *set)
+{
+  for (size_t k = 0; k < 3; ++k) {
+    const size_t n = fg__find_apart_position(set->position + k, 3, set->points);
+    if (n < set->points)
+      return fg__fail(set->context, FG_STATUS_FILE_FORMAT,
+                      "%s: point %zu is at (%g, %g, %g), far beyond most others",
+                      set->path, n, set->position[3 * n], set->position[3 * n + 1],
+                      set->position[3 * n + 2]);
+  }
+  return FG_STATUS_OK;
+}
+
 static fg_status find_box(cell_box *out, const fg__cell_set *set)
 {
   *out = empty_box();
@@ -83,7 +98,7 @@ static fg_status find_box(cell_box *out, const fg__cell_set *set)
                         set->number[c], position[0], position[1], position[2]);
       extend(out, position);
     }
-  return FG_STATUS_OK;
+  return check_apart(set);
 }
 
 /* Whether all corners lie on one of the box's two sides across an axis: a layer of cells,

@@ -58,13 +58,15 @@ static fg_status check_points(const fg__scatter *points)
     return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
                     "%s: %zu points with a place; a field needs three at least",
                     points->path, points->count);
-  for (int k = 0; k < points->dimension && k < 3; ++k)
+  for (int k = 0; k < points->dimension && k < 3; ++k) {
+    const size_t apart = fg__find_apart_position(points->position[k], 1, points->count);
     for (size_t i = 0; i < points->count; ++i)
-      if (!(fabs(points->position[k][i]) < FARTHEST))
+      if (!(fabs(points->position[k][i]) < FARTHEST) || i == apart)
         return fg__fail(points->context, FG_STATUS_FILE_FORMAT,
                         "%s: %s %d: the point's coordinate %d is %g", points->path,
                         points->records, record_of(points, i), k + 1,
                         points->position[k][i]);
+  }
   for (size_t i = 0; i < points->count; ++i)
     if (fg__is_missing_code(across, 2, i))
       return fail_code(points, i);
