@@ -164,6 +164,7 @@ struct fg__dataset {
   int times;    /* 0: there was no choice */
   bool has_blocks;
   fg__missing_numbers missing;
+  const struct fg__projector *projector; /* NULL: projections are not known */
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
