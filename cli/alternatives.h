@@ -1,12 +1,8 @@
-/* The times and levels that an input has besides the one that is read. */
+/* Errors of reading, with the times and levels that an input has besides. */
 #ifndef ALTERNATIVES_H
 #define ALTERNATIVES_H
 
 #include "option/settings.h"
-
-/* Counts the times and levels of an input's vector; leaves both as they are where that is
- * unknown. */
-void count_alternatives(int *times, int *levels, fg_input *input);
 
 /* Prints the error of reading a field. Where it is what the samples are (all missing or
  * zero), advises another time or level, if there is one. Returns the exit code. input:

@@ -12,9 +12,9 @@ enum { TEXT_BYTES = 2048 }; /* longest message of a context */
 static char complaint[TEXT_BYTES], advice[TEXT_BYTES];
 static bool silent;
 
-void keep_complaints(void)
+void keep_complaints(bool keep)
 {
-  silent = true;
+  silent = keep;
 }
 
 size_t character_bytes(const unsigned char *text)
@@ -93,6 +93,13 @@ void advise(const char *format, ...)
   va_end(arguments);
   blank_controls(advice);
   if (!silent)
+    fprintf(stderr, "%s\n", advice);
+}
+
+void repeat_complaint(void)
+{
+  fprintf(stderr, "flowgrain: %s\n", complaint);
+  if (*advice)
     fprintf(stderr, "%s\n", advice);
 }
 

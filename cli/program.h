@@ -9,7 +9,10 @@
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
 
 /* Stores complaints instead of printing them: on ranks other than 0 (ranks.h). */
-void keep_complaints(void);
+void keep_complaints(bool keep);
+
+/* Prints the last complaint and its advice. */
+void repeat_complaint(void);
 
 /* Prints "flowgrain: TEXT" on standard error, or stores it. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));

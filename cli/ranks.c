@@ -20,7 +20,7 @@ int ranks_start(void)
     return code;
   fg_ranks(context, &rank, &count);
   if (rank > 0)
-    keep_complaints();
+    keep_complaints(true);
   if (rank > 0 && !freopen("/dev/null", "w", stdout))
     return complain_of_file("/dev/null", "cannot be written");
   return EXIT_DONE;

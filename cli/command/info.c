@@ -1,13 +1,13 @@
-/* Prints the contents of a file. */
+/* Prints the contents of a file, and what a run with the same options reads of it. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "command/command.h"
 #include "inputs.h"
 #include "option/table.h"
-#include "report/json.h"
+#include "report/reading.h"
+#include "series/places.h"
 
 static int name_count(const fg_inventory_vector *vector)
 {
@@ -41,6 +41,37 @@ static const char *axis_of(const fg_inventory_vector *vector, int k)
   return vector->axis_name[k] ? vector->axis_name[k] : standard[k];
 }
 
+/* Grid, share of missing samples, scale and doubts. */
+static void print_grid(const fg_inventory_vector *vector, const char *const *units)
+{
+  char text[CLEAN_BYTES];
+  printf("  grid:");
+  for (int k = 0; k < vector->dimension; ++k)
+    printf("%s %d", k ? " x" : "", vector->size[k]);
+  if (vector->cells > 0)
+    printf(", interpolated from %zu cells", vector->cells);
+  if (vector->points > 0)
+    printf(", interpolated from %zu points", vector->points);
+  putchar('\n');
+  for (int k = 0; k < vector->dimension; ++k) {
+    printf("  %s: %.6g to %.6g", clean_text(text, axis_of(vector, k)),
+           vector->bounds[2 * k], vector->bounds[2 * k + 1]);
+    printf("%s%s%s\n", units && *units[k] ? " " : "",
+           units ? clean_text(text, units[k]) : "",
+           vector->periodic[k] ? ", periodic" : "");
+  }
+  printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
+  if (vector->normal_share > 0.0)
+    printf("  normal to the plane: %.1f %% of the mean square\n",
+           100.0 * vector->normal_share);
+  printf("  scale: %s\n", scale_words[vector->scale]);
+  for (const char *line = vector->doubts; line && *line;) {
+    const int length = (int)strcspn(line, "\n");
+    printf("  doubt: %.*s\n", length, line);
+    line += length + (line[length] == '\n');
+  }
+}
+
 static void print_vector(const fg_inventory_vector *vector)
 {
   char text[CLEAN_BYTES];
@@ -54,26 +85,10 @@ static void print_vector(const fg_inventory_vector *vector)
     printf("  cannot be read: %s\n", clean_text(text, vector->unusable));
     return;
   }
-  printf("  grid:");
-  for (int k = 0; k < vector->dimension; ++k)
-    printf("%s %d", k ? " x" : "", vector->size[k]);
-  if (vector->cells > 0)
-    printf(", interpolated from %zu cells", vector->cells);
-  if (vector->points > 0)
-    printf(", interpolated from %zu points", vector->points);
-  putchar('\n');
-  for (int k = 0; k < vector->dimension; ++k)
-    printf("  %s: %.6g to %.6g%s\n", axis_of(vector, k), vector->bounds[2 * k],
-           vector->bounds[2 * k + 1], vector->periodic[k] ? ", periodic" : "");
   if (vector->chosen)
     printf("  chosen: %s\n", clean_text(text, vector->chosen));
   print_values("times", vector->time_value, vector->times, 0);
   print_values("levels", vector->level_value, vector->levels, vector->usual_level);
-  printf("  missing: %.1f %%\n", 100.0 * vector->missing_share);
-  if (vector->normal_share > 0.0)
-    printf("  normal to the plane: %.1f %% of the mean square\n",
-           100.0 * vector->normal_share);
-  printf("  scale: %s\n", scale_words[vector->scale]);
   if (vector->absent)
     printf("  its coordinates are not in the file: %s\n",
            clean_text(text, vector->absent));
@@ -81,11 +96,8 @@ static void print_vector(const fg_inventory_vector *vector)
     printf("  components: %s\n", clean_text(text, vector->frame));
   if (fg_map_auto(vector))
     printf("  map: %s\n", fg_map_auto(vector));
-  for (const char *line = vector->doubts; line && *line;) {
-    const int length = (int)strcspn(line, "\n");
-    printf("  doubt: %.*s\n", length, line);
-    line += length + (line[length] == '\n');
-  }
+  if (vector->size[0] > 0)
+    print_grid(vector, NULL);
 }
 
 static void add_values(cJSON *object, const char *name, const fg_axis_value *values,
@@ -155,16 +167,17 @@ static void add_vector(cJSON *array, const fg_inventory_vector *vector)
     cJSON_AddStringToObject(object, "map", fg_map_auto(vector));
 }
 
-/* The inventory to print: of the whole file, or of the chosen vector. */
+/* What is printed: the vectors of the file, or the chosen one, and what a run reads. */
 typedef struct listing {
-  const char *file;
-  const fg_inventory *inventory; /* the input's, or `all` */
-  fg_inventory *all;
-  fg_input *input;
+  reading_settings reading;
+  fg_context *context;
+  const fg_inventory *inventory; /* of all, or of the chosen one */
   bool is_chosen;
   fg_inventory_vector chosen;
-  fg_field *field; /* the chosen vector as read, whose texts `chosen` has */
-  int looks;       /* times that were read for one with values */
+  fg_field *own; /* the chosen vector on its own grid, whose texts `chosen` has */
+  chosen_places places;
+  reading_facts facts; /* without a field: it is refused, as the last complaint says */
+  fg_field *field;
 } listing;
 
 static int count_of(const listing *list)
@@ -180,11 +193,16 @@ static const fg_inventory_vector *vector_at(const listing *list, int k)
 static int print_json(const listing *list)
 {
   cJSON *root = cJSON_CreateObject();
-  cJSON_AddStringToObject(root, "file", list->file);
+  cJSON_AddStringToObject(root, "file", list->reading.input);
   cJSON_AddStringToObject(root, "format", fg_inventory_format(list->inventory));
   cJSON *array = cJSON_AddArrayToObject(root, "vectors");
   for (int k = 0; k < count_of(list); ++k)
     add_vector(array, vector_at(list, k));
+  reading_report(root, &list->facts);
+  if (!list->field) {
+    json_add_text(root, "refused", last_complaint());
+    json_add_text(root, "hint", *last_advice() ? last_advice() : NULL);
+  }
   char *text = json_print(root);
   if (text)
     puts(text);
@@ -196,143 +214,153 @@ static int print_json(const listing *list)
   return code;
 }
 
-static void print_text(const listing *list)
-{
-  printf("file: %s\nformat: %s\n", list->file, fg_inventory_format(list->inventory));
-  for (int k = 0; k < count_of(list); ++k)
-    print_vector(vector_at(list, k));
-}
-
-/* Sets the grid from the field as read. */
+/* Sets the grid from a field. */
 static void take_grid(fg_inventory_vector *vector, const fg_field *field)
 {
   const fg_field_arrays *a = fg_field_contents(field);
-  size_t samples = 1, missing = 0;
-  const bool is_cut = a->dimension < vector->dimension;
   vector->dimension = a->dimension;
   for (int k = 0; k < a->dimension && k < 3; ++k) {
-    if (is_cut)
-      vector->axis_name[k] = a->axis_name[k];
+    vector->axis_name[k] = a->axis_name[k];
     vector->size[k] = a->size[k];
     vector->bounds[2 * k] = a->axis[k][0];
     vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
     vector->periodic[k] = a->period[k] > 0.0;
-    samples *= (size_t)a->size[k];
   }
-  for (size_t n = 0; n < samples; ++n) {
-    bool valid = !a->valid || a->valid[n];
-    for (int k = 0; k < a->dimension && k < 3; ++k)
-      valid = valid && isfinite(a->velocity[k][n]);
-    missing += !valid;
-  }
-  vector->missing_share = (double)missing / (double)samples;
+  vector->missing_share = fg_field_missing_share(field);
   vector->scale = a->scale;
   vector->normal_share = fg_field_normal_share(field);
   vector->doubts = a->doubts;
 }
 
+static void print_place(const char *what, const fg_selection *selected, int count,
+                        const char *words)
+{
+  char text[CLEAN_BYTES];
+  if (!words && count < 2)
+    return;
+  printf("  %s: %s", what, clean_text(text, words ? words : ""));
+  printf(count > 1 ? "%s(%d of 0 to %d)" : "", words ? " " : "", selected->index[0],
+         count - 1);
+  if (selected->count > 1)
+    printf(", the first of %d", selected->count);
+  putchar('\n');
+}
+
+static void print_reading(const listing *list)
+{
+  char text[CLEAN_BYTES];
+  if (!list->field) {
+    printf("run refuses: %s\n", last_complaint());
+    if (*last_advice())
+      printf("  %s\n", last_advice());
+    return;
+  }
+  const fg_field_arrays *field = fg_field_contents(list->field);
+  fg_inventory_vector as_read = {.dimension = 0};
+  printf("run reads: ");
+  for (int k = 0; k < field->dimension; ++k)
+    printf("%s%s", k ? "," : "", clean_text(text, field->velocity_name[k]));
+  putchar('\n');
+  print_place("time", &list->places.time, list->facts.times, field->time);
+  print_place("level", &list->places.level, list->facts.levels, field->level);
+  if (field->projection)
+    printf("  projection: %s\n", clean_text(text, field->projection));
+  if (list->reading.map.has_region && field->projection)
+    printf("  region: %g to %g east, %g to %g north\n", list->reading.map.region[0],
+           list->reading.map.region[1], list->reading.map.region[2],
+           list->reading.map.region[3]);
+  take_grid(&as_read, list->field);
+  print_grid(&as_read, field->axis_units);
+}
+
+static void print_text(const listing *list)
+{
+  printf("file: %s\nformat: %s\n", list->reading.input,
+         fg_inventory_format(list->inventory));
+  for (int k = 0; k < count_of(list); ++k)
+    print_vector(vector_at(list, k));
+  print_reading(list);
+}
+
 static bool chooses(const reading_settings *reading)
 {
-  return reading->vars || reading->vars_from || reading->mesh_from || reading->at ||
-         reading->block || reading->slice || reading->frame || reading->scale ||
-         reading->missing;
+  const char *const texts[] = {
+      reading->vars,      reading->vars_from,  reading->mesh_from,     reading->mask,
+      reading->missing,   reading->at,         reading->slice,         reading->block,
+      reading->time_text, reading->level_text, reading->map.projection};
+  bool any = reading->scale || reading->frame || reading->map.has_center ||
+             reading->map.has_region;
+  for (size_t n = 0; n < sizeof texts / sizeof *texts; ++n)
+    any = any || texts[n];
+  return any;
 }
 
-/* So many times are looked at for one that has values. */
-enum { MOST_LOOKS = 32 };
-
-/* The time of a look, number 1 to looks - 1: the last one first, then evenly. */
-static int time_of_look(int look, int looks, int times)
+/* Reads what a run with these options reads. Returns its exit code. */
+static int read_as_run(listing *list)
 {
-  const int even = look == 1 ? looks - 1 : look - 1;
-  return (int)((int64_t)even * (times - 1) / (looks - 1));
-}
-
-/* Reads the chosen vector at the first time that has values; *looks: of so many that are
- * looked at. */
-static fg_status read_any(fg_field **out, int *looks, fg_context *context,
-                          fg_input *input, int times)
-{
-  fg_status status = fg_input_field(out, context, input, 0, 0, 0, 1);
-  *looks = status != FG_STATUS_FILE_FORMAT ? 1 : times < MOST_LOOKS ? times : MOST_LOOKS;
-  for (int look = 1; look < *looks && status == FG_STATUS_FILE_FORMAT; ++look) {
-    fg_context_clear(context);
-    status =
-        fg_input_field(out, context, input, time_of_look(look, *looks, times), 0, 0, 1);
+  keep_complaints(true);
+  int code = places_find(&list->places, &list->reading, true);
+  if (!code) {
+    list->reading.time = list->places.time.index[0];
+    list->reading.level = list->places.level.index[0];
+    code = places_field(&list->field, list->context, &list->places, &list->reading);
   }
-  return status;
-}
-
-/* Lists the vector that the options choose with its grid as read at a time that has
- * values (models start from rest, observations have gaps). */
-static fg_status list_chosen(listing *list, fg_context *context,
-                             const fg_read_options *options)
-{
-  fg_status status = fg_input_open(&list->input, context, list->file, options);
-  if (!status)
-    status = fg_input_inventory(&list->inventory, context, list->input);
-  list->is_chosen = !status && fg_inventory_vector_count(list->inventory) > 0;
-  if (!list->is_chosen)
-    return status;
-  list->chosen = *fg_inventory_vector_at(list->inventory, 0);
-  status = read_any(&list->field, &list->looks, context, list->input, list->chosen.times);
-  if (!status)
-    take_grid(&list->chosen, list->field);
-  return status;
-}
-
-/* Prints the error of reading, which names the contents of the file. */
-static int complain_of_none(fg_context *context, const listing *list,
-                            const fg_read_options *options)
-{
-  fg_field *field = NULL;
-  const fg_status status = fg_field_read(&field, context, list->file, options);
-  fg_field_destroy(field);
-  if (status)
-    return complain_of(context, status, list->file);
-  complain("%s: holds no vector field", list->file);
-  advise("`flowgrain run --vars U,V` takes variables by any names.");
-  return EXIT_FAILED;
-}
-
-/* Says of how many times the error is. */
-static int complain_of_chosen(fg_context *context, fg_status status, const listing *list)
-{
-  const int code = complain_of(context, status, list->file);
-  if (status == FG_STATUS_FILE_FORMAT && list->looks > 1)
-    advise(list->looks < list->chosen.times
-               ? "The same holds for %d of its %d times; the others were not looked at."
-               : "The same holds for all of its %d times.",
-           list->looks, list->chosen.times);
+  keep_complaints(false);
+  fg_context_clear(list->context);
+  list->facts = (reading_facts){.settings = &list->reading, .field = list->field};
+  reading_find(&list->facts, list->places.input);
   return code;
+}
+
+/* Sets the chosen vector's own grid, which is the run's unless it is laid on a map. */
+static void find_own_grid(listing *list)
+{
+  fg_read_options options = settings_reading(&list->reading);
+  const fg_field *field = list->field;
+  list->chosen = *fg_inventory_vector_at(list->inventory, 0);
+  options.map = NULL;
+  if (field && (fg_field_contents(field)->projection || list->reading.map.has_region) &&
+      !fg_field_read(&list->own, list->context, list->reading.input, &options))
+    field = list->own;
+  if (field)
+    take_grid(&list->chosen, field);
+}
+
+static fg_status find_vectors(listing *list)
+{
+  const bool all = !chooses(&list->reading);
+  if (!list->places.input)
+    return FG_STATUS_OK; /* the run's complaint says why */
+  const fg_status status = (all ? fg_input_vectors : fg_input_inventory)(
+      &list->inventory, list->context, list->places.input);
+  list->is_chosen = !all && !status && fg_inventory_vector_count(list->inventory) > 0;
+  if (list->is_chosen)
+    find_own_grid(list);
+  return status;
 }
 
 int command_info(const void *given)
 {
   const info_settings *settings = given;
-  fg_read_options options = settings_reading(&settings->reading);
-  listing list = {.file = settings->reading.input};
-  fg_context *context;
-  options.map = NULL;
-  const bool chosen = chooses(&settings->reading);
-  if (create_context(&context))
+  listing list = {.reading = settings->reading};
+  if (create_context(&list.context))
     return EXIT_FAILED;
-  int code = EXIT_DONE;
-  fg_status status = chosen ? list_chosen(&list, context, &options)
-                            : fg_inventory_read(&list.all, context, list.file);
-  if (!chosen)
-    list.inventory = list.all;
-  if (status)
-    code = complain_of_chosen(context, status, &list);
-  else if (settings->json)
-    code = print_json(&list);
+  int code = read_as_run(&list);
+  const fg_status status = find_vectors(&list);
+  const bool listed = !status && list.inventory;
+  if (status && !code)
+    code = complain_of(list.context, status, list.reading.input);
+  else if (code && (!listed || list.is_chosen || count_of(&list) == 0))
+    repeat_complaint();
   else
+    code = EXIT_DONE;
+  if (listed && settings->json)
+    code = print_json(&list) ? EXIT_FAILED : code;
+  else if (listed)
     print_text(&list);
-  if (!status && count_of(&list) == 0)
-    code = complain_of_none(context, &list, &options);
   fg_field_destroy(list.field);
-  fg_inventory_destroy(list.all);
-  fg_input_close(list.input);
-  fg_context_destroy(context);
+  fg_field_destroy(list.own);
+  places_clear(&list.places);
+  fg_context_destroy(list.context);
   return code;
 }

@@ -160,10 +160,9 @@ bool options_check(const any_settings *settings, const cli_command *command)
   const void *picture = group_of(settings, command, GROUP_PICTURE);
   if ((command->bit & INPUTS) && !check_inputs(inputs, command))
     return false;
-  if ((command->bit & DESCRIBERS) && !check_slice(reading, command))
-    return false;
   if ((command->bit & READERS) &&
-      !check_map(&((const reading_settings *)reading)->map, command))
+      (!check_slice(reading, command) ||
+       !check_map(&((const reading_settings *)reading)->map, command)))
     return false;
   if ((command->bit & (PICTURES | COMMAND_TEXTURE)) && !check_texts(picture, command))
     return false;

@@ -113,11 +113,12 @@ const cli_command command_table[] = {
      .operand = "FILE",
      .synopsis = "FILE [options]",
      .summary = "say what a file holds",
-     .text = "Lists the vector fields that a file holds: a line `vectors:` for each, as "
-             "--vars takes it, with its grid, share of missing values, times and levels, "
-             "and the map that it is laid on unless --projection says otherwise. With "
-             "--vars, --slice, --frame, --scale or --block only the one that flowgrain "
-             "run would read.",
+     .text =
+         "Lists the vector fields that a file holds: a line `vectors:` for each, as "
+         "--vars takes it, with its grid, share of missing values, times and levels, "
+         "and the map that it is laid on unless --projection says otherwise; then what "
+         "flowgrain run would read with the same options, or why it would refuse. With "
+         "options that choose, only the vector that it would read.",
      .work = command_info,
      .group = {[GROUP_READING] = offsetof(info_settings, reading),
                [GROUP_INPUTS] = offsetof(info_settings, inputs)},

@@ -20,14 +20,14 @@ static const option_entry input_entries[] = {
      .help = "likewise, the file with the other component"},
     {"mesh-from", 0, "FILE", COMMAND_DRAW, OPTION_TEXT, OWN(draw, mesh_from),
      .help = "likewise, the file with the mesh"},
-    {"vars", 0, "U,V[,W]", DESCRIBERS, OPTION_TEXT, READING(vars),
+    {"vars", 0, "U,V[,W]", READERS, OPTION_TEXT, READING(vars),
      .help =
          "the two or three variables, a speed and its direction, or one vector variable "
          "[found by their standard or usual names; an ambiguous choice is an error that "
          "lists the choices]"},
-    {"vars-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(vars_from),
+    {"vars-from", 0, "FILE", READERS, OPTION_TEXT, READING(vars_from),
      .help = "second file, which holds the other component, the positions, or the mesh"},
-    {"mesh-from", 0, "FILE", DESCRIBERS, OPTION_TEXT, READING(mesh_from),
+    {"mesh-from", 0, "FILE", READERS, OPTION_TEXT, READING(mesh_from),
      .help = "file with the positions or the mesh, where both components have a file of "
              "their own (NetCDF)"},
     {"time", 0, "TIME", READERS, OPTION_PLACES, READING(time_text),
@@ -44,14 +44,14 @@ static const option_entry input_entries[] = {
          "prints, as surface in GRIB; without levels, where one other dimension is left, "
          "of that: the members of an ensemble, 0:3 [that at the surface of an ocean, "
          "else 0]"},
-    {"at", 0, "NAME=WHICH", DESCRIBERS, OPTION_TEXT, READING(at), .once = true,
+    {"at", 0, "NAME=WHICH", READERS, OPTION_TEXT, READING(at), .once = true,
      .help = "of a dimension that is neither time nor level, as the members of an "
              "ensemble, the one to read: number=2 by its value or, where none has that, "
              "its index, from 0; scenario=ssp585 by its name; of several, with commas "
              "between (NetCDF)"},
     {"mask", 0, "VAR", READERS, OPTION_TEXT, READING(mask),
      .help = "variable that is zero (or negative, or missing) outside the domain"},
-    {"missing", 0, "VALUES", DESCRIBERS, OPTION_TEXT, READING(missing),
+    {"missing", 0, "VALUES", READERS, OPTION_TEXT, READING(missing),
      .help = "numbers that stand for missing values, besides those that the file "
              "declares: -9999,1e20; or none: every number is a value [a number that "
              "recurs apart from all others is refused]"},
@@ -63,17 +63,17 @@ static const option_entry input_entries[] = {
          "bytes that the samples of a field, and standard input, may take, as 500M or "
          "2G; what has more is refused [three quarters of the machine's; for standard "
          "input 1G]"},
-    {"block", 0, "NAME", DESCRIBERS, OPTION_TEXT, READING(block),
+    {"block", 0, "NAME", READERS, OPTION_TEXT, READING(block),
      .help = "of a file of several blocks (.vtm), the one of this name or those in it "
              "[all together]"},
-    {"slice", 0, "PLANE", DESCRIBERS, OPTION_TEXT, READING(slice),
+    {"slice", 0, "PLANE", READERS, OPTION_TEXT, READING(slice),
      .help =
          "cut a field in 3D: NAME=VALUE, as z=0.5, across an axis, or NX,NY,NZ@X,Y,Z, a "
          "normal and a point; the components in the plane become a field in 2D"},
-    {"scale", 0, "KIND", DESCRIBERS, OPTION_CHOICE, READING(scale), .words = scale_words,
+    {"scale", 0, "KIND", READERS, OPTION_CHOICE, READING(scale), .words = scale_words,
      .help = "what the axes are: `geo` (degrees, velocity along east and north), `map` "
              "(a projected plane) or `plain` [auto: from units and axes]"},
-    {"frame", 0, "KIND", DESCRIBERS, OPTION_CHOICE, READING(frame), .words = frame_words,
+    {"frame", 0, "KIND", READERS, OPTION_CHOICE, READING(frame), .words = frame_words,
      .help = "what the components on a model's grid are along: `east` (and north) or "
              "`grid` (the directions of its indices) [auto: from names, attributes and "
              "the grid, as `info` says]"},
@@ -86,8 +86,9 @@ static const option_entry input_entries[] = {
     {"center", 0, "LON[,LAT]", READERS, OPTION_CENTER, READING(map),
      .help = "middle of the map, degrees [from what the field or --region covers]"},
     {"region", 0, "W,E,S,N", READERS, OPTION_REGION, READING(map),
-     .help = "part of the globe to show: west, east, south, north in degrees [all that "
-             "the field covers]"},
+     .help = "part to show: of the globe west, east, south, north in degrees; of another "
+             "plane X0,X1,Y0,Y1 and of a volume X0,X1,Y0,Y1,Z0,Z1, in units of its axes, "
+             "read at the part's own resolution [all that the field covers]"},
     {"projection", 0, "MAP", COMMAND_DRAW, OPTION_TEXT, OWN(draw, map.projection),
      .help = "draw on another map, as `flowgrain run` has them; arrows keep their lines "
              "on the globe [the run's]"},

@@ -80,9 +80,10 @@ static void print_center(char *text, const fg_map_options *map)
 static void print_region(char *text, const fg_map_options *map)
 {
   const double *region = map->region;
-  if (map->has_region)
-    snprintf(text, VALUE_BYTES, "%.15g,%.15g,%.15g,%.15g", region[0], region[1],
-             region[2], region[3]);
+  size_t used = 0;
+  for (int k = 0; k < 4 + 2 * map->region_is_box && map->has_region; ++k)
+    used += (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%.15g", k ? "," : "",
+                             region[k]);
 }
 
 /* Prints the value in the form of the command line; "" if not given. */

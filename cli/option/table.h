@@ -21,9 +21,9 @@ enum {
 
   EVERY = 2 * COMMAND_VIEW - 1,
   RUNS = COMMAND_RUN | COMMAND_VIEW, /* have run_settings */
-  READERS = RUNS | COMMAND_RIVAL | COMMAND_TEXTURE | COMMAND_SCORE,
-  DESCRIBERS = READERS | COMMAND_INFO,            /* have reading_settings */
-  INPUTS = READERS | COMMAND_INFO | COMMAND_DRAW, /* have input_settings */
+  READERS = RUNS | COMMAND_INFO | COMMAND_RIVAL | COMMAND_TEXTURE |
+            COMMAND_SCORE,         /* have reading_settings */
+  INPUTS = READERS | COMMAND_DRAW, /* have input_settings */
   SEEDED = RUNS | COMMAND_TEXTURE | COMMAND_BRUSH,
   PICTURES = RUNS | COMMAND_DRAW | COMMAND_RIVAL /* have picture_settings */
 };

@@ -291,19 +291,36 @@ static bool set_center(fg_map_options *out, const cli_command *command,
   return true;
 }
 
+/* Whether the numbers bound a part of the globe. */
+static bool is_on_globe(const double region[4])
+{
+  return fabs(region[0]) <= 360.0 && fabs(region[1]) <= 540.0 &&
+         region[1] - region[0] <= 360.0 && fabs(region[1] - region[0]) > 0.0 &&
+         fabs(region[2]) <= 90.0 && fabs(region[3]) <= 90.0 && region[2] < region[3];
+}
+
+/* Of a drawing all fields are on the globe; whether one that is read is, is seen then. */
 static bool set_region(fg_map_options *out, const cli_command *command,
                        const option_entry *option, const char *text)
 {
-  double region[4];
-  if (parse_numbers(region, 4, text) != 4 || !(fabs(region[0]) <= 360.0) ||
-      !(fabs(region[1]) <= 540.0) || !(region[1] - region[0] <= 360.0) ||
-      !(fabs(region[1] - region[0]) > 0.0) || !(fabs(region[2]) <= 90.0) ||
-      !(fabs(region[3]) <= 90.0) || !(region[2] < region[3]))
+  enum { BOUNDS = 6 };
+  double region[BOUNDS] = {0.0};
+  const int count = parse_numbers(region, BOUNDS, text);
+  const bool globe = count == 4 && is_on_globe(region);
+  bool ascends = count == 4 || count == BOUNDS;
+  for (int k = 0; k < count; k += 2)
+    ascends = ascends && region[k] < region[k + 1];
+  if (!globe && (!ascends || command->bit == COMMAND_DRAW))
     return usage_error(command,
                        "--%s %s: WEST,EAST,SOUTH,NORTH is needed, in degrees, 360 of "
-                       "longitude at most, west apart from east, and south below north",
-                       option->name, text);
+                       "longitude at most, west apart from east, and south below north%s",
+                       option->name, text,
+                       command->bit == COMMAND_DRAW
+                           ? ""
+                           : "; or bounds along other axes, X0,X1,Y0,Y1 or "
+                             "X0,X1,Y0,Y1,Z0,Z1, each ascending");
   out->has_region = true;
+  out->region_is_box = count == BOUNDS;
   memcpy(out->region, region, sizeof region);
   return true;
 }

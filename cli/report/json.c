@@ -61,3 +61,23 @@ cJSON *json_parse(const char *text)
   free(bytes);
   return value;
 }
+
+void json_add_text(cJSON *object, const char *name, const char *text)
+{
+  if (text)
+    cJSON_AddStringToObject(object, name, text);
+  else
+    cJSON_AddNullToObject(object, name);
+}
+
+void json_add_numbers(cJSON *object, const char *name, const double *numbers, int count)
+{
+  cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray(numbers, count));
+}
+
+void json_add_words(cJSON *object, const char *name, const char *const *words, int count)
+{
+  cJSON *array = cJSON_AddArrayToObject(object, name);
+  for (int k = 0; k < count; ++k)
+    cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
+}

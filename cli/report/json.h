@@ -13,4 +13,9 @@ char *json_print(const cJSON *value);
 /* NULL for NULL, for no JSON and without memory. To be freed by cJSON_Delete. */
 cJSON *json_parse(const char *text);
 
+/* Add a text (NULL: null), numbers or texts to an object. */
+void json_add_text(cJSON *object, const char *name, const char *text);
+void json_add_numbers(cJSON *object, const char *name, const double *numbers, int count);
+void json_add_words(cJSON *object, const char *name, const char *const *words, int count);
+
 #endif

@@ -163,9 +163,10 @@ static void fill_map(cli_report *out, const cJSON *map)
       fill_numbers(out->map.center, 2, cJSON_GetObjectItemCaseSensitive(map, "center"));
   out->map.has_center = numbers > 0;
   out->map.has_center_latitude = numbers == 2;
-  out->map.has_region =
-      fill_numbers(out->map.region, 4, cJSON_GetObjectItemCaseSensitive(map, "region")) ==
-      4;
+  const int bounds =
+      fill_numbers(out->map.region, 6, cJSON_GetObjectItemCaseSensitive(map, "region"));
+  out->map.has_region = bounds == 4 || bounds == 6;
+  out->map.region_is_box = bounds == 6;
   out->map.samples = (int)number_of(map, "samples", 0.0, 1e9, 0.0);
   out->reading.map = &out->map;
 }

@@ -14,88 +14,6 @@
 #include "report/communication.h"
 #include "report/json.h"
 
-static void add_text(cJSON *object, const char *name, const char *text)
-{
-  if (text)
-    cJSON_AddStringToObject(object, name, text);
-  else
-    cJSON_AddNullToObject(object, name);
-}
-
-static void add_numbers(cJSON *object, const char *name, const double *numbers, int count)
-{
-  cJSON_AddItemToObject(object, name, cJSON_CreateDoubleArray(numbers, count));
-}
-
-static void add_words(cJSON *object, const char *name, const char *const *words,
-                      int count)
-{
-  cJSON *array = cJSON_AddArrayToObject(object, name);
-  for (int k = 0; k < count; ++k)
-    cJSON_AddItemToArray(array, cJSON_CreateString(words[k]));
-}
-
-/* The options of the map; "field" has the grid that was read. */
-static void add_map(cJSON *input, const fg_map_options *map)
-{
-  cJSON *object = cJSON_AddObjectToObject(input, "map");
-  add_text(object, "projection", map->projection ? map->projection : "auto");
-  if (map->has_center)
-    add_numbers(object, "center", map->center, map->has_center_latitude ? 2 : 1);
-  if (map->has_region)
-    add_numbers(object, "region", map->region, 4);
-  if (map->samples)
-    cJSON_AddNumberToObject(object, "samples", map->samples);
-}
-
-static void add_input(cJSON *root, const run_facts *facts)
-{
-  const run_settings *settings = facts->settings;
-  const fg_field_arrays *field = fg_field_contents(facts->field);
-  cJSON *input = cJSON_AddObjectToObject(root, "input");
-  files_record(input, &settings->reading);
-  add_text(input, "vars", settings->reading.vars);
-  add_text(input, "at", settings->reading.at);
-  add_text(input, "mask", settings->reading.mask);
-  add_text(input, "missing", settings->reading.missing);
-  add_text(input, "block", settings->reading.block);
-  add_text(input, "slice", settings->reading.slice);
-  cJSON_AddNumberToObject(input, "time", settings->reading.time);
-  cJSON_AddNumberToObject(input, "level", settings->reading.level);
-  if (facts->time_count) {
-    cJSON_AddNumberToObject(input, "times", facts->time_count);
-    cJSON_AddNumberToObject(input, "levels", facts->level_count);
-  }
-  add_text(input, "scale", scale_words[settings->reading.scale]);
-  if (settings->reading.frame != FG_FRAME_AUTO)
-    add_text(input, "frame", frame_words[settings->reading.frame]);
-  add_map(input, &settings->reading.map);
-
-  cJSON *read = cJSON_AddObjectToObject(root, "field");
-  add_words(read, "velocity", field->velocity_name, field->dimension);
-  add_text(read, "velocity_units", field->velocity_units);
-  add_words(read, "axes", field->axis_name, field->dimension);
-  add_words(read, "axis_units", field->axis_units, field->dimension);
-  cJSON_AddItemToObject(read, "size",
-                        cJSON_CreateIntArray(field->size, field->dimension));
-  double bounds[6], periods[3];
-  for (int k = 0; k < field->dimension; ++k) {
-    bounds[2 * k] = field->axis[k][0];
-    bounds[2 * k + 1] = field->axis[k][field->size[k] - 1];
-    periods[k] = field->period[k];
-  }
-  add_numbers(read, "bounds", bounds, 2 * field->dimension);
-  add_numbers(read, "period", periods, field->dimension);
-  add_text(read, "scale", scale_words[field->scale]);
-  add_text(read, "projection", field->projection);
-  add_text(read, "title", field->title);
-  add_text(read, "time", field->time);
-  add_text(read, "level", field->level);
-  add_text(read, "doubts", field->doubts);
-  if (fg_field_normal_share(facts->field) > 0.0)
-    cJSON_AddNumberToObject(read, "normal_share", fg_field_normal_share(facts->field));
-}
-
 static void add_parameters(cJSON *root, const run_facts *facts)
 {
   const run_settings *settings = facts->settings;
@@ -103,12 +21,12 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON *object = cJSON_AddObjectToObject(root, "parameters");
   if (settings->evolution.nodes)
     cJSON_AddNumberToObject(object, "nodes", settings->evolution.nodes);
-  add_text(object, "mesh", mesh->adaptive ? "adaptive" : "uniform");
-  add_text(object, "scheme", scheme_words[settings->evolution.scheme]);
-  add_text(object, "energy",
-           settings->evolution.energy ? settings->evolution.energy : "flow");
+  json_add_text(object, "mesh", mesh->adaptive ? "adaptive" : "uniform");
+  json_add_text(object, "scheme", scheme_words[settings->evolution.scheme]);
+  json_add_text(object, "energy",
+                settings->evolution.energy ? settings->evolution.energy : "flow");
   if (!scales_are_solid(facts->field))
-    add_text(object, "extent", extent_words[settings->extent]);
+    json_add_text(object, "extent", extent_words[settings->extent]);
   cJSON_AddNumberToObject(object, "anisotropy", mesh->anisotropy);
   cJSON_AddNumberToObject(object, "isotropic_below", mesh->isotropic_below);
   cJSON_AddNumberToObject(object, "coverage", mesh->coverage);
@@ -150,11 +68,11 @@ static void add_parameters(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(made, "dimension", mesh->dimension);
   cJSON_AddItemToObject(made, "cells",
                         cJSON_CreateIntArray(mesh->cells, mesh->dimension));
-  add_numbers(made, "spacing", mesh->spacing, mesh->dimension);
+  json_add_numbers(made, "spacing", mesh->spacing, mesh->dimension);
   cJSON_AddNumberToObject(made, "length", mesh->length);
   cJSON_AddNumberToObject(made, "active_cells", (double)mesh->active_cells);
   cJSON_AddNumberToObject(made, "domain_measure", mesh->domain_measure);
-  add_text(made, "kernel", mesh->kernel);
+  json_add_text(made, "kernel", mesh->kernel);
   coarsening_add(made, facts);
 }
 
@@ -225,9 +143,9 @@ static void add_outcome(cJSON *root, const run_facts *facts)
     add_scale(scales, facts, k);
   if (facts->has_page)
     cJSON_AddStringToObject(root, "page", VIEW_NAME);
-  add_numbers(root, "speed_range", drawing_look(facts->drawing)->speeds, 2);
+  json_add_numbers(root, "speed_range", drawing_look(facts->drawing)->speeds, 2);
   if (scales_are_solid(facts->field))
-    add_numbers(root, "view", drawing_look(facts->drawing)->view, 2);
+    json_add_numbers(root, "view", drawing_look(facts->drawing)->view, 2);
   cJSON_AddStringToObject(root, "ended", report_ending_word(facts->ended));
   cJSON *steps = cJSON_AddObjectToObject(root, "steps");
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
@@ -262,7 +180,7 @@ int report_write(const char *path, const run_facts *facts)
   cJSON *root = cJSON_CreateObject();
   cJSON_AddStringToObject(root, "program", "flowgrain");
   cJSON_AddStringToObject(root, "version", fg_version());
-  add_input(root, facts);
+  reading_report(root, &facts->reading);
   add_parameters(root, facts);
   add_outcome(root, facts);
   char *text = json_print(root);

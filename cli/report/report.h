@@ -2,19 +2,20 @@
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 
+#include "report/reading.h"
 #include "run/drawing.h"
 
 enum { MOST_COARSENINGS = 16 };
 
 typedef struct run_facts {
   const run_settings *settings;
+  reading_facts reading;
   const fg_field *field;
   fg_mesh_info mesh; /* before coarsening */
   fg_coarsening coarsening[MOST_COARSENINGS];
   int coarsening_count;
   cli_drawing *drawing;
   fg_run_outcome ended;
-  int time_count, level_count; /* of the input; 0: unknown */
   long accepted, rejected;
   double mass_drift;
   bool energy_monotone; /* at every step, except for coarsenings */

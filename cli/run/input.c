@@ -50,14 +50,15 @@ static void print_choices(cli_run *run)
 {
   const run_settings *settings = run->settings;
   const fg_field_arrays *field = fg_field_contents(run->field);
-  if (field->time || field->level)
-    count_alternatives(&run->facts.time_count, &run->facts.level_count, run->input);
+  reading_facts *facts = &run->facts.reading;
+  *facts = (reading_facts){.settings = &settings->reading, .field = run->field};
+  reading_find(facts, run->input);
   if (settings->quiet)
     return;
-  print_choice(settings->reading.input, "time", settings->reading.time,
-               run->facts.time_count, field->time);
-  print_choice(settings->reading.input, "level", settings->reading.level,
-               run->facts.level_count, field->level);
+  print_choice(settings->reading.input, "time", settings->reading.time, facts->times,
+               field->time);
+  print_choice(settings->reading.input, "level", settings->reading.level, facts->levels,
+               field->level);
 }
 
 int input_join(cli_run *run)

@@ -106,11 +106,12 @@ static int open_results(cli_run *run, bool *done, bool *goes_on)
   return *goes_on ? EXIT_DONE : start_anew(run);
 }
 
-/* A coarsening before the step may have raised the energy. */
+/* A coarsening before the step may have changed the energy, and with missing values the
+ * domain's measure. */
 static int record_step(cli_run *run, const fg_step *before)
 {
   const fg_step *step = &run->step;
-  const fg_mesh_info *mesh = &run->facts.mesh;
+  const fg_mesh_info *mesh = fg_evolution_mesh(fg_run_evolution(run->scales));
   double energy = before->energy;
   if (step->coarsenings > before->coarsenings)
     energy = coarsening_record(run)->energy_after;
@@ -118,7 +119,7 @@ static int record_step(cli_run *run, const fg_step *before)
   run->facts.rejected += step->rejected;
   if (before->step && step->energy > energy)
     run->facts.energy_monotone = false;
-  /* masses are in units of the longest side; the initial mass is known exactly */
+  /* masses are in units of the longest side; the mean is known exactly */
   double measure = mesh->domain_measure / pow(mesh->length, mesh->dimension);
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)

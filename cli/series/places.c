@@ -126,21 +126,30 @@ void places_clear(chosen_places *places)
   *places = (chosen_places){.input = NULL};
 }
 
+int places_field(fg_field **out, fg_context *context, chosen_places *places,
+                 const reading_settings *settings)
+{
+  reading_settings of_one = *settings; /* time */
+  const fg_read_options options = settings_reading(settings);
+  fg_status status = FG_STATUS_OK;
+  *out = NULL;
+  of_one.time = places->time.index[0];
+  of_one.level = places->level.index[0];
+  if (!places->input)
+    status = fg_input_open(&places->input, context, settings->input, &options);
+  if (!status)
+    status = fg_input_field(out, context, places->input, of_one.time, of_one.level, 0, 1);
+  return status ? complain_of_field(context, status, places->input, &of_one) : EXIT_DONE;
+}
+
 int places_read(fg_field **out, fg_context *context, const reading_settings *settings)
 {
   chosen_places places;
-  const fg_read_options options = settings_reading(settings);
-  fg_status status = FG_STATUS_OK;
   int code = places_find(&places, settings, false);
   *out = NULL;
-  if (!code && !places.input)
-    status = fg_input_open(&places.input, context, settings->input, &options);
-  if (!code && !status)
-    status = fg_input_field(out, context, places.input, places.time.index[0],
-                            places.level.index[0], 0, 1);
-  if (status)
-    code = complain_of_field(context, status, places.input, settings);
-  else if (!code)
+  if (!code)
+    code = places_field(out, context, &places, settings);
+  if (!code)
     report_doubts(settings->input, *out);
   places_clear(&places);
   return code;

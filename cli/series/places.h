@@ -18,6 +18,10 @@ typedef struct chosen_places {
 int places_find(chosen_places *out, const reading_settings *settings, bool quiet);
 void places_clear(chosen_places *places);
 
+/* Reads the field of the first time and level that are chosen. Returns an exit code. */
+int places_field(fg_field **out, fg_context *context, chosen_places *places,
+                 const reading_settings *settings);
+
 /* Reads the field of a command that takes one. Returns an exit code. */
 int places_read(fg_field **out, fg_context *context, const reading_settings *settings);
 

@@ -74,8 +74,7 @@ typedef struct fg_step {
   double time;          /* t, in units of (longest side)^2 */
   double tau;           /* size of this step */
   double energy;        /* E(u), in units of the longest side; like t and tau it refers
-                           to the first mesh (fg_evolution_coarsen), and grows at
-                           coarsenings only */
+                           to the first mesh (fg_evolution_coarsen) */
   double mass;          /* integral of u over the domain, in units of (longest side)^2,
                            in 3D ^3 */
   double area_fraction; /* share of the domain where u > 0 */
@@ -108,20 +107,19 @@ FG_API fg_status fg_evolution_step(fg_evolution *evolution, fg_step *step);
 
 /* Whether a mesh with half the cells along each side resolves the clusters: the domain
  * has at least 4096 cells (in 3D 32768) to a cluster, and the longest side at least twice
- * as many as a mesh has by default. False before clusters are counted, where cells can
- * not be halved along each side, and in a domain with missing values, whose narrow parts
- * a coarser mesh would lose. */
+ * as many as a mesh has by default. False before clusters are counted, and where cells
+ * can not be halved along each side. */
 FG_API bool fg_evolution_should_coarsen(const fg_evolution *evolution);
 
 /* Coarsens the mesh: half the cells along each side, interfaces twice as wide, four times
  * gamma. u is restricted to every other node and smoothed to the new interface width; its
- * integral is conserved. Wider interfaces cost more and move faster: energies are
- * divided, times and time steps multiplied by two, so that they go on as on the first
- * mesh, but for a jump of the energy, by some per cent up or down. `step` becomes the
- * present state; it counts no cycles. fg_evolution_step does it by itself. Ranks for
- * which the coarser mesh has no block are idle from then on. Collective. ARGUMENT (the
- * cells can not be coarsened; the field has missing values): nothing has changed; MEMORY,
- * MPI: the evolution can only be destroyed. */
+ * integral is conserved, with missing values its mean. Wider interfaces cost more and
+ * move faster: energies are divided, times and time steps multiplied by two, so that they
+ * go on as on the first mesh. At most 20 steps make the energy no larger than it was;
+ * they are not counted. `step` becomes the present state; it counts no cycles.
+ * fg_evolution_step does it by itself. Ranks for which the coarser mesh has no block are
+ * idle from then on. Collective. ARGUMENT (the cells can not be coarsened): nothing has
+ * changed; NO_CONVERGENCE, MEMORY, MPI: the evolution can only be destroyed. */
 FG_API fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step);
 
 /* A coarsening of the mesh: the step after which it was made and that step's time, the

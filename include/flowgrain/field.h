@@ -135,6 +135,9 @@ FG_API const fg_field_arrays *fg_field_contents(const fg_field *field);
  * of its own rows, after fg_field_join those of all ranks. */
 FG_API size_t fg_field_infinite(const fg_field *field);
 
+/* The share of samples that are missing, likewise. */
+FG_API double fg_field_missing_share(const fg_field *field);
+
 /* Velocity at a point in the input's units, bilinear or trilinear; false outside the
  * domain: beyond the boundary, or in a data cell with a missing corner. position and
  * velocity: dimension numbers. */

@@ -22,6 +22,10 @@ FG_API void fg_input_close(fg_input *input);
 FG_API fg_status fg_input_inventory(const fg_inventory **out, fg_context *context,
                                     fg_input *input);
 
+/* All vectors of the file, likewise as by fg_inventory_read. */
+FG_API fg_status fg_input_vectors(const fg_inventory **out, fg_context *context,
+                                  fg_input *input);
+
 /* Its defaults (fg_read_defaults_find). */
 FG_API fg_status fg_input_defaults(fg_read_defaults *out, fg_context *context,
                                    fg_input *input);

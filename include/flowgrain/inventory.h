@@ -45,7 +45,7 @@ typedef struct fg_inventory_vector {
   const char *absent;                            /* fg_read_defaults.absent; NULL: none */
   const char *chosen;       /* the samples of fg_read_options.at; NULL: none */
   const char *doubts;       /* fg_field_arrays.doubts of reading it; NULL: none */
-  const char *axis_name[3]; /* of a plane in space; NULL: x, y, z */
+  const char *axis_name[3]; /* of the field's; NULL: not known yet */
 } fg_inventory_vector;
 
 /* Lists the vectors of a file; where the format allows, without reading all samples.

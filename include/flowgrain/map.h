@@ -19,13 +19,16 @@ struct fg_map_options {
   const char *projection;
   bool has_center;          /* center[0] counts [from what the field covers] */
   bool has_center_latitude; /* so does center[1] [likewise] */
-  double center[2]; /* longitude and latitude in the middle, degrees; not of strings and
-                       codes, which have theirs */
-  bool has_region;  /* `region` counts [all that the field covers] */
-  double region[4]; /* west, east, south, north in degrees; an east that is not beyond
-                       west is a turn farther */
-  int samples;      /* along the plane's longer side [768] */
-  int threads;      /* [as many as there are cores, where there is work for them] */
+  double center[2];   /* longitude and latitude in the middle, degrees; not of strings and
+                         codes, which have theirs */
+  bool has_region;    /* `region` counts [all that the field covers] */
+  bool region_is_box; /* so do its last two numbers: the field is a volume */
+  double region[6];   /* west, east, south, north in degrees; an east that is not beyond
+                         west is a turn farther. Of fields that go on no map bounds along
+                         x, y and z, in the axes' units: what is read is that part alone,
+                         which ends at the region's bounds or the field's */
+  int samples;        /* along the plane's longer side [768] */
+  int threads;        /* [as many as there are cores, where there is work for them] */
 };
 
 /* The projection that "auto" takes for a vector of a file: PROJ's name of it, or the PROJ

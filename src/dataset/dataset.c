@@ -177,6 +177,18 @@ static void clear(fg__variable *variables, size_t count)
   free(variables);
 }
 
+fg_status fg__dataset_choose_time(fg__dataset *dataset, const char *path, double *time,
+                                  size_t times, int wanted)
+{
+  dataset->time = time;
+  dataset->times = (int)times;
+  if (times == 0 || (wanted >= 0 && (size_t)wanted < times))
+    return FG_STATUS_OK;
+  return fg__fail(dataset->context, FG_STATUS_ARGUMENT,
+                  "%s: time %d is asked for; there are %zu, from 0 on", path, wanted,
+                  times);
+}
+
 void fg__dataset_close(fg__dataset *dataset)
 {
   for (int i = 0; i < dataset->files; ++i) {

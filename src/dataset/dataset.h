@@ -6,6 +6,7 @@
 
 #include "base/context.h"
 #include "field/cell_types.h"
+#include "field/region.h"
 #include "terms/coordinates.h"
 
 enum {
@@ -165,6 +166,7 @@ struct fg__dataset {
   bool has_blocks;
   fg__missing_numbers missing;
   const struct fg__projector *projector; /* NULL: projections are not known */
+  fg__field_region region; /* that samples are wanted of, where they go on no map */
 };
 
 /* For decoders: begin a file, whose state is theirs to set, and add what it has, each
@@ -186,6 +188,11 @@ fg_status fg__variable_add_numbers(fg__variable *variable, const char *name,
 /* Makes `components` elements of the variable that was added last, or as many as a tensor
  * has. MEMORY. */
 fg_status fg__dataset_split(fg__dataset *dataset, int components);
+
+/* Takes over the times that a file has, from which number `wanted` is chosen. ARGUMENT.
+ */
+fg_status fg__dataset_choose_time(fg__dataset *dataset, const char *path, double *time,
+                                  size_t times, int wanted);
 
 void fg__dataset_close(fg__dataset *dataset);
 

@@ -2,8 +2,9 @@
 
 #include <string.h>
 
-/* A file's first tag begins this early, comments before it included. */
-enum { MARK_WITHIN = 4096 };
+/* A file's first tag begins this early, comments before it included; and the names of an
+ * HDF5 file's first groups. */
+enum { MARK_WITHIN = 4096, NAME_WITHIN = 1 << 14 };
 
 fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
 {
@@ -21,33 +22,50 @@ fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
   return FG__NC_NONE;
 }
 
-bool fg__is_vtk_xml(const unsigned char *bytes, size_t size)
+static bool has_text(const unsigned char *bytes, size_t size, size_t within,
+                     const char *text)
 {
-  static const char mark[] = "<VTKFile";
+  const size_t length = strlen(text), end = size < within ? size : within;
+  size_t at = 0;
+  while (at + length <= end && memcmp(bytes + at, text, length) != 0)
+    ++at;
+  return at + length <= end;
+}
+
+/* Whether a file is markup with a tag early in it. */
+static bool has_tag(const unsigned char *bytes, size_t size, const char *tag)
+{
   size_t at = 0;
   if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) /* a byte order mark */
     at = 3;
   while (at < size && strchr(" \t\r\n", bytes[at]) && bytes[at])
     ++at;
-  if (at == size || bytes[at] != '<')
-    return false;
-  for (; at + sizeof mark - 1 <= size && at < MARK_WITHIN; ++at)
-    if (memcmp(bytes + at, mark, sizeof mark - 1) == 0)
-      return true;
-  return false;
+  return at < size && bytes[at] == '<' && has_text(bytes, size, MARK_WITHIN, tag);
+}
+
+bool fg__is_vtk_xml(const unsigned char *bytes, size_t size)
+{
+  return has_tag(bytes, size, "<VTKFile");
+}
+
+bool fg__is_xdmf(const unsigned char *bytes, size_t size)
+{
+  return has_tag(bytes, size, "<Xdmf");
+}
+
+bool fg__is_vtkhdf(const unsigned char *bytes, size_t size)
+{
+  return fg__nc_kind_of(bytes, size) == FG__NC_HDF5 &&
+         has_text(bytes, size, NAME_WITHIN, "VTKHDF");
 }
 
 bool fg__is_vtk_series(const unsigned char *bytes, size_t size)
 {
-  static const char mark[] = "\"file-series-version\"";
   size_t at = 0;
   while (at < size && bytes[at] && strchr(" \t\r\n", bytes[at]))
     ++at;
-  if (at == size || bytes[at] != '{')
-    return false;
-  while (at + sizeof mark - 1 <= size && memcmp(bytes + at, mark, sizeof mark - 1) != 0)
-    ++at;
-  return at + sizeof mark - 1 <= size;
+  return at < size && bytes[at] == '{' &&
+         has_text(bytes, size, size, "\"file-series-version\"");
 }
 
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size)

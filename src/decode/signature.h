@@ -21,6 +21,10 @@ bool fg__is_vtk_xml(const unsigned char *bytes, size_t size);
 /* A list of VTK files over time in JSON, as ParaView writes it. */
 bool fg__is_vtk_series(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size);
+/* An HDF5 file with a group VTKHDF; and markup that names arrays, in such files mostly.
+ */
+bool fg__is_vtkhdf(const unsigned char *bytes, size_t size);
+bool fg__is_xdmf(const unsigned char *bytes, size_t size);
 
 /* A heading, of telecommunication or of an archive and in any code, may stand before the
  * first GRIB message, which begins before this byte. (ecCodes has no bound, NetCDF-Java

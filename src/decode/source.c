@@ -21,6 +21,13 @@ static fg_status check_kind(fg_context *context, const char *path,
   if (!S_ISREG(about->st_mode))
     return fg__fail(context, FG_STATUS_FILE_ACCESS,
                     "%s: is no regular file (a pipe, socket or device)", path);
+  const size_t length = strlen(path);
+  if (about->st_size == 0 && length > 5 && strcmp(path + length - 5, ".foam") == 0) {
+    fg__fail(context, FG_STATUS_FILE_FORMAT,
+             "%s: marks a case of OpenFOAM, and holds nothing itself", path);
+    fg__hint(context, "write the case as VTK, by foamToVTK or ParaView");
+    return FG_STATUS_FILE_FORMAT;
+  }
   if (about->st_size == 0)
     return fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is empty (0 bytes)", path);
   if ((uintmax_t)about->st_size > SIZE_MAX)

@@ -77,11 +77,33 @@ static void a_file_that_is_removed_is_there_until_it_is_closed(void **state)
   fclose(again);
 }
 
+static void an_empty_file_is_called_what_it_is(void **state)
+{
+  static const char *const rows[][2] = {{"", "is empty (0 bytes)"},
+                                        {".foam", "marks a case of OpenFOAM"},
+                                        {".foam.csv", "is empty (0 bytes)"}};
+  for (size_t k = 0; k < sizeof rows / sizeof *rows; ++k) {
+    char name[64];
+    fg__source source;
+    snprintf(name, sizeof name, "%s%s", path, rows[k][0]);
+    FILE *file = fopen(name, "w");
+    assert_non_null(file);
+    fclose(file);
+    fg_context_clear(*state);
+    assert_int_equal(fg__source_open(&source, *state, name), FG_STATUS_FILE_FORMAT);
+    assert_non_null(strstr(fg_context_message(*state), rows[k][1]));
+    assert_true((strstr(fg_context_hint(*state), "foamToVTK") != NULL) == (k == 1));
+    if (rows[k][0][0])
+      unlink(name);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_file_that_became_shorter_was_not_read),
       cmocka_unit_test(a_file_that_is_removed_is_there_until_it_is_closed),
+      cmocka_unit_test(an_empty_file_is_called_what_it_is),
   };
   return cmocka_run_group_tests_name("decode/source", tests, set_up, tear_down);
 }

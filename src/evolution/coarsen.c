@@ -11,23 +11,21 @@
 static const double coarsening_cells_2d = 64.0 * 64.0,
                     coarsening_cells_3d = 32.0 * 32.0 * 32.0;
 
+/* Energies of winds and currents took 0 to 10 (docs/design/adaptive.md). */
+enum { MOST_RELAXING_STEPS = 20 };
+
 bool fg_evolution_should_coarsen(const fg_evolution *evolution)
 {
   const fg_evolution *e = evolution;
   double needed = e->mesh.dimension == 3 ? coarsening_cells_3d : coarsening_cells_2d;
-  bool masked = e->active_cells < (int64_t)e->cells;
   int least = 2 * (fg__default_nodes(e->mesh.dimension) - 1);
-  return e->clusters > 0 && !masked && fg__mesh_most_cells(&e->mesh) >= least &&
+  return e->clusters > 0 && fg__mesh_most_cells(&e->mesh) >= least &&
          (double)e->active_cells >= needed * e->clusters &&
          fg__mesh_can_coarsen(&e->mesh);
 }
 
 static fg_status check(const fg_evolution *e)
 {
-  if (e->active_cells < (int64_t)e->cells)
-    return fg__fail(e->context, FG_STATUS_ARGUMENT,
-                    "coarser mesh: the field is missing in places, which a coarser mesh "
-                    "would not show as they are");
   if (!fg__mesh_can_coarsen(&e->mesh))
     return fg__fail(e->context, FG_STATUS_ARGUMENT,
                     "coarser mesh: %d cells along the longest side can not be halved",
@@ -47,9 +45,9 @@ static fg_status change_mesh(fg_evolution *e, const fg__coarsened *coarsened)
   fg__evolution_clear(e);
   fg_status status = fg__evolution_build(e);
   e->coarsened = NULL;
-  e->stepper.mean =
-      e->coarsened_mean;        /* to the last bit, as a resumed run will have it */
-  e->stepper.time = 0.5 * time; /* its unit is twice as long */
+  if (e->stepper.masses.count <= 1)
+    e->stepper.mean = e->coarsened_mean; /* to the last bit, as a resumed run has it */
+  e->stepper.time = 0.5 * time;          /* its unit is twice as long */
   return status;
 }
 
@@ -64,11 +62,9 @@ static void remember(fg_evolution *e, double energy_before, const fg_step *step)
   e->has_coarsening = true;
 }
 
-fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step)
+fg_status fg__evolution_coarsen_mesh(fg_evolution *evolution)
 {
   fg_evolution *e = evolution;
-  double energy = fg__evolution_describe(e, 0, 0).energy;
-  fg_phase before = fg__phase_begin(e->ranks->counters, FG_PHASE_SETUP);
   fg__coarsened coarsened = {.values = NULL};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check(e));
   if (!status)
@@ -76,9 +72,37 @@ fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step)
                                   &e->mesh.partition, e->stepper.current);
   if (!status)
     status = change_mesh(e, &coarsened);
+  fg__coarsened_clear(&coarsened);
+  return status;
+}
+
+/* Steps until the energy is no larger than before the coarsening, whose part they are: no
+ * time passes and none is counted. */
+static fg_status relax(fg_evolution *e, double energy_before)
+{
+  fg__stepper *s = &e->stepper;
+  double time = s->time;
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < MOST_RELAXING_STEPS && !status; ++n) {
+    if (fg__evolution_describe(e, 0, 0).energy <= energy_before)
+      break;
+    status = fg__stepper_advance(s, e->context);
+  }
+  s->time = time;
+  s->accepted = s->quiet_steps = 0;
+  return status;
+}
+
+fg_status fg_evolution_coarsen(fg_evolution *evolution, fg_step *step)
+{
+  fg_evolution *e = evolution;
+  double energy = fg__evolution_describe(e, 0, 0).energy;
+  fg_phase before = fg__phase_begin(e->ranks->counters, FG_PHASE_SETUP);
+  fg_status status = fg__evolution_coarsen_mesh(e);
+  if (!status)
+    status = relax(e, energy);
   if (!status)
     status = fg__evolution_count(e);
-  fg__coarsened_clear(&coarsened);
   fg__phase_return(e->ranks->counters, before);
   if (!status) {
     *step = fg__evolution_describe(e, 0, 0);

@@ -3,6 +3,8 @@
 #include "evolution/checkpoint/place_test.h"
 #include "evolution/steps_test.h"
 
+#include <stdlib.h>
+
 enum { SAMPLES = 33, BEFORE = 6, BETWEEN = 4, AFTER = 4 };
 
 static fg_evolution *begin(const fg_field *field, const fg__ranks *ranks,
@@ -100,6 +102,42 @@ static void a_coarsened_mesh_has_the_bits_of_one_rank(void **state)
   end_together();
 }
 
+/* Two seas that a wall divides, one of them with an island. */
+static void compare_masked(const char *name, const fg_evolution_options *options)
+{
+  fg_field *field, *masked;
+  expect(fg_field_create_analytic(&field, us.context, name, SAMPLES) == FG_STATUS_OK);
+  fg_field_arrays arrays = *fg_field_contents(field);
+  const int *size = arrays.size;
+  size_t count = (size_t)size[0] * (size_t)size[1] * (size_t)size[2];
+  unsigned char *valid = calloc(count, 1);
+  expect(valid != NULL);
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+      for (int i = 0; i < size[0]; ++i) {
+        int x = 5 * (i - 24), y = 4 * (j - 18), z = k - size[2] / 2;
+        bool wall = i >= 11 && i <= 13, island = x * x + y * y + z * z < 300;
+        valid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i] =
+            !wall && !island;
+      }
+  arrays.valid = valid;
+  expect(fg_field_create(&masked, us.context, &arrays) == FG_STATUS_OK);
+  free(valid);
+  compare_on(masked, options);
+  fg_field_destroy(masked);
+  fg_field_destroy(field);
+}
+
+static void a_coarsened_mask_has_the_bits_of_one_rank(void **state)
+{
+  (void)state;
+  compare_masked("vortex3", &(fg_evolution_options){.nodes = 129, .seed = 3});
+  compare_masked("vortex3",
+                 &(fg_evolution_options){.nodes = 65, .scheme = FG_SCHEME_THETA});
+  compare_masked("vortex3d", &(fg_evolution_options){.nodes = 33});
+  end_together();
+}
+
 /* A strip four times as long as wide. */
 static fg_field *strip(void)
 {
@@ -138,6 +176,7 @@ int main(void)
   start_together();
   const struct CMUnitTest tests[] = {
       TOGETHER(a_coarsened_mesh_has_the_bits_of_one_rank),
+      TOGETHER(a_coarsened_mask_has_the_bits_of_one_rank),
       TOGETHER(ranks_that_no_longer_fit_fall_idle),
   };
   return cmocka_run_group_tests_name("evolution/coarsen_together", tests, name_checkpoint,

@@ -1,26 +1,33 @@
 #include "evolution/coarsened.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "grid/exchange/regions.h"
+#include "solver/passes.h"
 
 static const double weight[3] = {0.25, 0.5, 0.25};
 
-/* The mean round a node of a block; the order of the sum is the same wherever it stands.
- */
-static float mean_round(const fg__layout *layout, int dimension, const float *u, int i,
+/* The mean round a node of a block, by the nodes' masses; NaN where there is no mass. The
+ * order of the sums is the same wherever the node stands. */
+static float mean_round(const fg__level *level, int dimension, const float *u, int i,
                         int j, int k)
 {
-  double sum = 0.0;
+  double sum = 0.0, mass = 0.0;
   for (int z = dimension == 3 ? -1 : 0; z <= (dimension == 3 ? 1 : 0); ++z) {
     double along_z = dimension == 3 ? weight[z + 1] : 1.0;
     for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        sum += along_z * weight[y + 1] * weight[x + 1] *
-               (double)u[fg__node_at(layout, i + x, j + y, k + z)];
+      for (int x = -1; x <= 1; ++x) {
+        ptrdiff_t at = fg__node_at(&level->layout, i + x, j + y, k + z);
+        double part = along_z * weight[y + 1] * weight[x + 1];
+        if (level->mass)
+          part *= (double)level->mass[at];
+        mass += part;
+        sum += part * (double)u[at];
+      }
   }
-  return (float)sum;
+  return (float)(level->mass ? sum / mass : sum);
 }
 
 static fg_status coarsen_block(float **out, fg_context *context, const fg__level *level,
@@ -34,8 +41,7 @@ static fg_status coarsen_block(float **out, fg_context *context, const fg__level
   for (int k = 0; k < even.nodes[2]; ++k)
     for (int j = 0; j < even.nodes[1]; ++j)
       for (int i = 0; i < even.nodes[0]; ++i)
-        *to++ = mean_round(&level->layout, dimension, u,
-                           2 * (even.first[0] + i) - fine->first[0],
+        *to++ = mean_round(level, dimension, u, 2 * (even.first[0] + i) - fine->first[0],
                            2 * (even.first[1] + j) - fine->first[1],
                            2 * (even.first[2] + k) - fine->first[2]);
   return FG_STATUS_OK;
@@ -89,4 +95,63 @@ fg_status fg__coarsened_deliver(const fg__coarsened *coarsened, fg_context *cont
   free(region);
   free(array);
   return status;
+}
+
+/* The mean of the neighbours that have a value; NaN: none has. */
+static float mean_of_neighbours(const fg__level *level, const float *u, int i, int j,
+                                int k)
+{
+  double sum = 0.0;
+  int count = 0, deep = level->layout.dimension == 3;
+  for (int z = -deep; z <= deep; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        float value = u[fg__node_at(&level->layout, i + x, j + y, k + z)];
+        if (isnan(value))
+          continue;
+        sum += (double)value;
+        ++count;
+      }
+  return count > 0 ? (float)(sum / count) : NAN;
+}
+
+/* Takes u to `to` with values for the nodes next to those that have one; nodes without
+ * mass have none. Returns the number of nodes with mass that still lack a value. */
+static uint64_t spread(const fg__level *level, const float *u, float *to)
+{
+  const int *nodes = level->layout.nodes;
+  uint64_t without = 0;
+  for (int k = 0; k < nodes[2]; ++k)
+    for (int j = 0; j < nodes[1]; ++j)
+      for (int i = 0; i < nodes[0]; ++i) {
+        ptrdiff_t at = fg__node_at(&level->layout, i, j, k);
+        float value = u[at];
+        if (!(level->mass[at] > 0.0F))
+          value = NAN;
+        else if (isnan(value))
+          value = mean_of_neighbours(level, u, i, j, k);
+        without += level->mass[at] > 0.0F && isnan(value);
+        to[at] = value;
+      }
+  return without;
+}
+
+void fg__coarsened_fill_holes(const fg__multigrid *multigrid, double mean)
+{
+  const fg__level *level = fg__multigrid_finest(multigrid);
+  fg__array_shape shape = fg__multigrid_shape(multigrid, 0);
+  float *u = fg__multigrid_u(multigrid), *w = fg__multigrid_w(multigrid);
+  if (!level->mass)
+    return;
+  for (uint64_t last = UINT64_MAX, without = last - 1; without > 0 && without < last;) {
+    last = without;
+    spread(level, u, w); /* takes away what nodes without mass have */
+    fg__pass_fill_ghosts(multigrid, w);
+    without = spread(level, w, u);
+    fg__ranks_add(multigrid->ranks, &without, 1);
+    fg__pass_fill_ghosts(multigrid, u);
+  }
+  for (size_t n = 0; n < shape.size; ++n)
+    if (isnan((u - shape.first)[n]))
+      (u - shape.first)[n] = (level->mass - shape.first)[n] > 0.0F ? (float)mean : 0.0F;
 }

@@ -10,9 +10,10 @@ typedef struct fg__coarsened {
 } fg__coarsened;
 
 /* Takes the means of `u`, an array of the finest level whose ghosts are filled, with the
- * weights (1/4, 1/2, 1/4) along each axis: without a mask the sum of the nodes' masses
- * times u is conserved. `fine` is the partition of the finest level; along each axis its
- * cells are even. Collective. MEMORY. */
+ * weights (1/4, 1/2, 1/4) along each axis, times the nodes' masses: without a mask the
+ * sum of the nodes' masses times u is conserved. NaN where no node round has mass. `fine`
+ * is the partition of the finest level; along each axis its cells are even. Collective.
+ * MEMORY. */
 fg_status fg__coarsened_create(fg__coarsened *out, fg_context *context,
                                const fg__multigrid *multigrid, const fg__partition *fine,
                                const float *u);
@@ -22,5 +23,10 @@ void fg__coarsened_clear(fg__coarsened *coarsened);
  * those of the own block, x fastest. Collective. MEMORY. */
 fg_status fg__coarsened_deliver(const fg__coarsened *coarsened, fg_context *context,
                                 const fg__partition *to, float *out);
+
+/* Gives values to the nodes of a mask's coarser mesh that have mass and no finer node
+ * with mass round them: the mean of their neighbours, from node to node, or `mean` where
+ * no node near has a value. u and its ghosts are the finest level's. Collective. */
+void fg__coarsened_fill_holes(const fg__multigrid *multigrid, double mean);
 
 #endif

@@ -32,6 +32,8 @@ static fg_status create_mesh(fg_evolution *e, const fg_field *field)
   const fg_field_arrays *arrays = fg_field_contents(field);
   fg__mesh_description description = {.dimension = arrays->dimension,
                                       .nodes = e->mesh_nodes,
+                                      .coarsest =
+                                          fg__default_nodes(arrays->dimension) - 1,
                                       .ranks = e->ranks,
                                       .may_idle = e->coarsenings > 0};
   for (int k = 0; k < arrays->dimension; ++k) {
@@ -148,7 +150,8 @@ static fg_status create_stepper(fg_evolution *e)
       .accuracy = e->options.accuracy,
       .cycles = e->options.cycles,
       .second_order = e->options.scheme == FG_SCHEME_BDF2,
-      .alpha = fg__evolution_alpha(e)};
+      .alpha = fg__evolution_alpha(e),
+      .coarser = e->coarsened};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = fg__evolution_multigrid_create(

@@ -71,6 +71,10 @@ double fg__evolution_unit(const fg_evolution *evolution);
 /* Makes everything that depends on the mesh, for options that are settled. Collective. */
 fg_status fg__evolution_build(fg_evolution *evolution);
 
+/* Half the cells along each side, without what makes the energy fall: for a checkpoint's
+ * density. Collective. Statuses as fg_evolution_coarsen. */
+fg_status fg__evolution_coarsen_mesh(fg_evolution *evolution);
+
 /* Whether fg_evolution_step coarsens the mesh. */
 bool fg__evolution_adapts(const fg_evolution *evolution);
 

@@ -76,14 +76,19 @@ static void set_mean(const fg__multigrid *multigrid, double mean)
 }
 
 /* In a subdomain of a few nodes the noise may have a mean beyond the minima of the double
- * well, which the evolution would conserve: the subdomain becomes a pure phase. */
+ * well, which the evolution would conserve: the subdomain becomes a pure phase. A density
+ * of a finer mesh is widened and keeps the mean of each subdomain. */
 static fg_status bound_subdomain_means(const fg_evolution *e,
                                        const fg__multigrid *multigrid, double mean)
 {
   float *u = fg__multigrid_u(multigrid);
   fg__mass_constraint masses;
   fg_status status = fg__mass_constraint_create(&masses, e->context, multigrid, u);
-  if (!status && fg__mass_constraint_bound(&masses, -1.0, 1.0)) {
+  bool bounded = !status && fg__mass_constraint_bound(&masses, -1.0, 1.0);
+  if (!status && e->coarsened)
+    fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
+                         fg__evolution_least_spacing(e));
+  if (bounded || e->coarsened) {
     fg__mass_constraint_restore(&masses, multigrid, u);
     set_mean(multigrid, mean);
   }
@@ -126,9 +131,8 @@ fg_status fg__evolution_fill(fg_evolution *evolution, const fg__multigrid *multi
     return status;
   fg__pass_fill_ghosts(multigrid, u);
   if (e->coarsened) {
-    fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
-                         fg__evolution_least_spacing(e));
-    set_mean(multigrid, e->coarsened_mean);
+    fg__coarsened_fill_holes(multigrid, e->coarsened_mean);
+    status = bound_subdomain_means(e, multigrid, e->coarsened_mean);
   } else if (e->options.initial) {
     e->initial_fingerprint = fg__mix_floats(0, 0, e->options.initial, e->nodes);
     if (!fg__ranks_alike(e->ranks, e->initial_fingerprint))

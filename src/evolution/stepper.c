@@ -90,8 +90,12 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->first_iterate = out->previous + size;
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
-  out->mean = mean_of(out, out->current);
   status = fg__mass_constraint_create(&out->masses, context, m, out->current);
+  out->mean = mean_of(out, out->current);
+  if (!status && description->coarser) {
+    fg__stepper_hold_means(out);
+    fg__mass_constraint_restore(&out->masses, m, out->current);
+  }
   if (!status && !(description->alpha > 0.0))
     status = fg__subdomains_create(&out->subdomains, context, m, &out->masses);
   if (status) {
@@ -102,6 +106,13 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->energy = out->cell_volume * sums.energy;
   out->mass = out->cell_volume * sums.u;
   return FG_STATUS_OK;
+}
+
+void fg__stepper_hold_means(fg__stepper *stepper)
+{
+  fg__stepper *s = stepper;
+  if (s->masses.count > 1)
+    s->mean = fg__mass_constraint_hold(&s->masses, &s->multigrid, s->current);
 }
 
 void fg__stepper_clear(fg__stepper *stepper)

@@ -43,6 +43,7 @@ typedef struct fg__stepper_description {
   int cycles;
   bool second_order; /* implicit: backward differences over two steps, not one */
   double alpha;      /* of the theta scheme; 0: implicit */
+  bool coarser;      /* u is that of a finer mesh */
 } fg__stepper_description;
 
 /* Takes over a multigrid hierarchy (cleared with the stepper), for the theta scheme as
@@ -52,6 +53,11 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                              fg__multigrid *multigrid,
                              const fg__stepper_description *description);
 void fg__stepper_clear(fg__stepper *stepper);
+
+/* The means of `current`, in each of several subdomains, are those to be kept
+ * (fg__mass_constraint_hold), also after a checkpoint's density was loaded. Collective.
+ */
+void fg__stepper_hold_means(fg__stepper *stepper);
 
 /* One accepted step; `current` is the new density. Collective. NO_CONVERGENCE. */
 fg_status fg__stepper_advance(fg__stepper *stepper, fg_context *context);

@@ -12,9 +12,11 @@ static fg__tensor_recipe recipe_of(const fg_evolution *e, const fg_field *field)
                          .anisotropy = e->options.anisotropy,
                          .dimension = e->mesh.dimension,
                          .cells = {1, 1, 1}};
-  /* an interface across the stream is sqrt(gamma) wide */
+  /* An interface across the stream is sqrt(gamma) wide on the first mesh. A coarser mesh
+   * keeps that width: its A is then that of the finer mesh, and the energy too. */
   if (e->options.law->axes)
-    r.width = sqrt(fg__evolution_interface_energy(e)) * e->mesh.length;
+    r.width =
+        sqrt(fg__evolution_interface_energy(e)) * e->mesh.length / fg__evolution_unit(e);
   for (int k = 0; k < r.dimension; ++k) {
     r.cells[k] = e->mesh.cells[k];
     r.periodic[k] = e->mesh.periodic[k];

@@ -184,6 +184,7 @@ static fg_status copy_samples(fg_field *field, fg_context *context,
     if (valid && fg__is_missing_code(arrays->velocity, arrays->dimension, i))
       return fg__field_fail_code(field, context, (double)arrays->velocity[0][i], i);
     *missing += !valid;
+    field->missing += !valid && i < own;
     field->infinite += infinite && i < own;
     for (int k = 0; k < arrays->dimension; ++k) {
       const float value = valid ? arrays->velocity[k][i] : NAN;
@@ -315,8 +316,7 @@ static fg_status fill_part(fg_field *field, fg_context *context,
     return status;
   counts->samples = own_samples(field);
   counts->infinite = field->infinite;
-  for (size_t i = 0; i < counts->samples; ++i)
-    counts->missing += isnan(field->velocity[0][i]) ? 1 : 0;
+  counts->missing = field->missing;
   find_cells(field, first, first + slab->own, NULL, counts);
   counts->fingerprint = fg__field_fingerprint_samples(field);
   slab->key = fg__field_fingerprint_grid(field);

@@ -38,7 +38,8 @@ struct fg_field {
   unsigned char *valid_cell;   /* NULL: all, or a part or window */
   char *word[FG__FIELD_WORDS]; /* owned copies of the texts */
   int words;
-  uint64_t infinite;    /* samples that are missing for that */
+  uint64_t missing;     /* samples */
+  uint64_t infinite;    /* those that are missing for that */
   double normal_share;  /* of a plane in space: fg_field_normal_share */
   fg__field_slab *slab; /* of a part; else NULL */
   const fg_field *of;   /* of a window: whose axes and words it borrows; else NULL */

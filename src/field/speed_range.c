@@ -58,3 +58,11 @@ fg_status fg_field_speed_range(double range[2], fg_context *context,
   free(speeds);
   return FG_STATUS_OK;
 }
+
+double fg_field_missing_share(const fg_field *field)
+{
+  double samples = 1.0;
+  for (int k = 0; k < field->contents.dimension; ++k)
+    samples *= (double)field->contents.size[k];
+  return (double)field->missing / samples;
+}

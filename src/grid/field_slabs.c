@@ -130,6 +130,7 @@ fg_status fg__field_join(fg_context *context, const fg__ranks *ranks, fg_field *
     return status;
   slab->fingerprint = fg__field_fingerprint_grid(field) + all.fingerprint;
   field->infinite = all.infinite;
+  field->missing = all.missing;
   slab->joined = true;
   return FG_STATUS_OK;
 }

@@ -1,6 +1,7 @@
 #include "grid/mesh.h"
 
 #include "grid/blocks.h"
+#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -43,10 +44,12 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
                               const fg__mesh_description *description)
 {
   int longest = 0, wanted = description->nodes - 1;
+  double coarsest = description->coarsest > 0 ? description->coarsest : INT_MAX;
   for (int k = 1; k < mesh->dimension; ++k)
     if (description->side[k] > description->side[longest])
       longest = k;
   mesh->length = description->side[longest];
+  mesh->coarsest = description->coarsest;
   int most = mesh->dimension == 3 ? MOST_NODES_3D : MOST_NODES_2D;
   for (int k = 0; k < mesh->dimension; ++k) {
     if (k == longest)
@@ -61,11 +64,15 @@ static fg_status choose_cells(fg__mesh *mesh, fg_context *context,
           1.0 / ratio, least_cells + 1.0, most);
     if (least_cells > wanted)
       wanted = (int)ceil(least_cells);
+    coarsest = fmax(coarsest, least_cells);
   }
-  mesh->cells[longest] = round_up(wanted, COARSENING);
+  int halvings = 0;
+  while (round_up(wanted, COARSENING << halvings) >> (halvings + 1) >= coarsest)
+    ++halvings;
+  mesh->cells[longest] = round_up(wanted, COARSENING << halvings);
   for (int k = 0; k < mesh->dimension; ++k) {
     if (k != longest) {
-      int step = step_of_cells(description, k);
+      int step = step_of_cells(description, k) << halvings;
       double ratio = description->side[k] / mesh->length;
       int parts = (int)lround(ratio * mesh->cells[longest] / step);
       mesh->cells[k] = step * (parts > 0 ? parts : 1);
@@ -132,7 +139,8 @@ bool fg__mesh_can_coarsen(const fg__mesh *mesh)
 {
   fg__mesh half = {.dimension = mesh->dimension};
   fg__mesh_description description = {.dimension = mesh->dimension,
-                                      .nodes = fg__mesh_most_cells(mesh) / 2 + 1};
+                                      .nodes = fg__mesh_most_cells(mesh) / 2 + 1,
+                                      .coarsest = mesh->coarsest};
   for (int k = 0; k < mesh->dimension; ++k) {
     description.side[k] = mesh->spacing[k] * mesh->cells[k];
     description.periodic[k] = mesh->periodic[k];

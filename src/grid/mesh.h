@@ -18,6 +18,7 @@ typedef struct fg__mesh {
   double spacing[3]; /* in units of the domain's longest side; 1 along z in 2D */
   double length;     /* the longest side in the input's coordinates */
   double origin[3];  /* lower corner, input coordinates; 0 along z in 2D */
+  int coarsest;      /* see the description */
   const fg__ranks *ranks;
   fg__partition partition; /* of the nodes */
 } fg__mesh;
@@ -27,17 +28,19 @@ typedef struct fg__mesh_description {
   double origin[3]; /* lower corner of the box, input coordinates */
   double side[3];   /* lengths of its sides */
   bool periodic[3];
-  int nodes;              /* wanted along the longest side */
+  int nodes;    /* wanted along the longest side */
+  int coarsest; /* 0, or cells along it of the coarsest mesh to be made of this */
   const fg__ranks *ranks; /* who shares it; NULL: all */
   bool may_idle;          /* ranks that do not fit get no block, and are not refused */
 } fg__mesh_description;
 
 /* Builds a mesh. The cells along the longest side are nodes - 1 rounded up to a multiple
  * of 16, every other side gets the multiple of 8 (16 when periodic) that makes cells most
- * nearly cubes; so all can be coarsened at least three times; a domain so thin that this
- * makes cells more than twice as wide as long gets more cells along it. Collective.
- * ARGUMENT (fewer than 9 or too many nodes, an empty box, more ranks than fit),
- * MEMORY, MPI. */
+ * nearly cubes; so all can be coarsened at least three times. These multiples are doubled
+ * for each time that the cells can be halved to no fewer than `coarsest`. A domain so
+ * thin that this makes cells more than twice as wide as long gets more cells along it.
+ * Collective. ARGUMENT (fewer than 9 or too many nodes, an empty box, more ranks than
+ * fit), MEMORY, MPI. */
 fg_status fg__mesh_create(fg__mesh *out, fg_context *context,
                           const fg__mesh_description *description);
 void fg__mesh_clear(fg__mesh *mesh);

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "base/context_test.h"
 #include "grid/mesh.h"
@@ -23,6 +24,38 @@ enum {
   BRICK_COUNT = sizeof BRICKS / sizeof *BRICKS,
   BRICK_NODE_COUNT = sizeof BRICK_NODES / sizeof *BRICK_NODES
 };
+
+/* A mesh of sides that are no powers of two can be halved down to the coarsest asked for,
+ * with cells that are nearly squares. */
+static void sides_can_be_halved_as_often_as_is_asked(void **state)
+{
+  static const struct {
+    int dimension, nodes, coarsest, halvings;
+    double side[3];
+  } rows[] = {
+      {2, 1025, 256, 2, {2.065, 1.0}},  {2, 1025, 256, 2, {1.0, 0.4765}},
+      {2, 2049, 256, 3, {1.0, 0.87}},   {2, 1000, 256, 2, {1.0, 0.93}},
+      {2, 257, 256, 0, {1.0, 0.93}},    {3, 129, 64, 1, {1.0, 0.57, 0.71}},
+      {2, 1025, 256, 1, {1.0, 0.0114}},
+  };
+  for (size_t n = 0; n < sizeof rows / sizeof *rows; ++n) {
+    fg__mesh_description description = {.dimension = rows[n].dimension,
+                                        .nodes = rows[n].nodes,
+                                        .coarsest = rows[n].coarsest};
+    memcpy(description.side, rows[n].side, sizeof description.side);
+    fg__mesh mesh;
+    for (int halvings = 0; halvings <= rows[n].halvings; ++halvings) {
+      assert_int_equal(fg__mesh_create(&mesh, *state, &description), FG_STATUS_OK);
+      description.nodes = fg__mesh_most_cells(&mesh) / 2 + 1;
+      for (int k = 0; k < mesh.dimension; ++k)
+        if (rows[n].side[k] > 0.1)
+          assert_true(fabs(mesh.spacing[k] * fg__mesh_most_cells(&mesh) - 1.0) < 0.1);
+      if (halvings < rows[n].halvings)
+        assert_true(fg__mesh_can_coarsen(&mesh));
+      fg__mesh_clear(&mesh);
+    }
+  }
+}
 
 typedef void check(const fg__mesh *mesh, const fg__mesh_description *description);
 
@@ -236,6 +269,8 @@ int main(void)
 #define CASE(name)                                                                       \
   cmocka_unit_test_setup_teardown(name, context_set_up, context_tear_down)
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test_setup_teardown(sides_can_be_halved_as_often_as_is_asked,
+                                      context_set_up, context_tear_down),
       CASE(the_mesh_covers_the_box),
       CASE(the_longest_side_has_the_cells_asked_for),
       CASE(every_mesh_can_be_coarsened),

@@ -250,7 +250,7 @@ static fg_status write_words(char *out, size_t size, const fg__dataset *data,
   const fg__variable *coordinate = coordinate_of(data, dimension);
   char label[FG__TEXT_BYTES] = "";
   fg_status status =
-      coordinate ? FG_STATUS_OK : fg__dimension_label(label, data, dimension, d->chosen);
+      coordinate ? FG_STATUS_OK : fg__dimension_label(label, data, dimension);
   if (status == FG_STATUS_OK && label[0])
     snprintf(out, size, "%s %s", d->name, label);
   else if (status == FG_STATUS_OK)

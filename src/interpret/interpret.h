@@ -24,11 +24,11 @@ fg_status fg__chosen_words(const fg__dataset *data, const fg__variable *variable
 fg_status fg__offer_samples(char *out, size_t size, const fg__dataset *data,
                             int dimension);
 
-/* labels.c. Names that the file has for the samples of a dimension as texts, perhaps
- * none: of one sample ("": none), and of all (*out is NULL: none; *out and *text are for
+/* texts.c. Names that the file has for the samples of a dimension as texts, perhaps none:
+ * of the chosen one ("": none), and of all (*out is NULL: none; *out and *text are for
  * free(), also after a failure). MEMORY, FILE_FORMAT. */
 fg_status fg__dimension_label(char out[FG__TEXT_BYTES], const fg__dataset *data,
-                              int dimension, size_t index);
+                              int dimension);
 fg_status fg__dimension_labels(fg_axis_value **out, char **text, const fg__dataset *data,
                                int dimension);
 
@@ -93,6 +93,10 @@ const fg__variable *fg__single_coordinate(const fg__dataset *data,
 /* Whether dimension number k of a variable is one of time, be a sample chosen or not. */
 bool fg__is_time(const fg__dataset *data, const fg__variable *variable, int k);
 
+/* The role of a variable's dimension number k by its coordinate's attributes, else by
+ * names. */
+fg__role fg__claimed_role(const fg__dataset *data, const fg__variable *variable, int k);
+
 /* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
 bool fg__may_be_index(const fg__variable *coordinate);
 
@@ -145,8 +149,9 @@ typedef struct fg__grid {
   char time_name[FG__DIMENSION_BYTES], level_name[FG__DIMENSION_BYTES];
   fg_scale scale;
   char projection[2 * FG__TEXT_BYTES]; /* PROJ string of scale MAP; "": not known */
-  bool points_east; /* components along east and north, not along the axes */
-  size_t samples;   /* product of the axes' sizes */
+  bool points_east;             /* components along east and north, not along the axes */
+  size_t samples;               /* product of the axes' sizes */
+  const struct fg__grid *whole; /* of which it is the part in a region; or NULL */
   const fg__variable
       *hidden; /* true where a sample is not to be used (numpy.ma), or NULL */
   char unusable[FG__REASON_BYTES]; /* "" or why the pair cannot be read */
@@ -319,7 +324,7 @@ fg_status fg__defaults_find(fg_read_defaults *out, const fg__dataset *data,
                             const fg__pair *pair, const fg__grid *grid,
                             const fg_read_options *options);
 
-/* date_texts.c. The variable with a date as text for each index of a dimension, or
+/* texts.c. The variable with a date as text for each index of a dimension, or
  * NULL. */
 const fg__variable *fg__date_texts(const fg__dataset *data, int dimension);
 

@@ -151,41 +151,6 @@ fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
   return FG_STATUS_OK;
 }
 
-/* Whether `vars` is a vector's name, or its names with commas. */
-static bool is_named(const fg_inventory_vector *vector, const char *vars)
-{
-  const char *rest = vars;
-  for (int k = 0; k < 3 && vector->name[k]; ++k) {
-    const size_t length = strlen(vector->name[k]);
-    if (strncmp(rest, vector->name[k], length) != 0)
-      return false;
-    rest += length;
-    if (k < 2 && vector->name[k + 1] && *rest++ != ',')
-      return false;
-  }
-  return rest > vars && !*rest;
-}
-
-void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options)
-{
-  size_t kept = inventory->count;
-  for (size_t n = inventory->count; n-- > 0;) {
-    const fg_inventory_vector *vector = &inventory->entries[n].vector;
-    if (options->vars ? is_named(vector, options->vars) : !vector->unusable)
-      kept = n;
-  }
-  for (size_t n = 0; n < inventory->count; ++n)
-    if (n != kept)
-      clear_entry(&inventory->entries[n]);
-  if (kept < inventory->count) {
-    const entry only = inventory->entries[kept];
-    inventory->entries[0] = only;
-    inventory->count = 1;
-  } else {
-    inventory->count = 0;
-  }
-}
-
 void fg_inventory_destroy(fg_inventory *inventory)
 {
   if (!inventory)

@@ -23,10 +23,6 @@ const char **fg__vector_text(fg_inventory_vector *vector, int n);
 fg_status fg__inventory_create(fg_inventory **out, fg_context *context,
                                const char *format);
 
-/* Leaves in an inventory the one vector that options->vars names, or the first that can
- * be read; perhaps none. */
-void fg__inventory_choose(fg_inventory *inventory, const fg_read_options *options);
-
 /* Adds a copy of a vector (texts included) to an inventory. MEMORY. */
 fg_status fg__inventory_add(fg_inventory *inventory, fg_context *context,
                             const fg_inventory_vector *vector);

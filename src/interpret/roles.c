@@ -146,6 +146,11 @@ static claim open_claim_of(const fg__dataset *data, const fg__variable *variable
   return c;
 }
 
+fg__role fg__claimed_role(const fg__dataset *data, const fg__variable *variable, int k)
+{
+  return claim_of(data, variable, k).role;
+}
+
 bool fg__is_time(const fg__dataset *data, const fg__variable *variable, int k)
 {
   return claim_of(data, variable, k).role == FG__ROLE_TIME;

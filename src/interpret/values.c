@@ -52,10 +52,36 @@ static size_t next_place(size_t at, ptrdiff_t step)
   return (size_t)((ptrdiff_t)at + step);
 }
 
-/* Receives a row of stored samples, for places `step` apart from `first` on; a reversed
- * axis has a negative step. */
-typedef void sink(void *target, size_t first, ptrdiff_t step, const double *stored,
-                  size_t count);
+/* Where a variable's numbers go: into one of three arrays. */
+typedef struct sink {
+  fg__packing packing;
+  fg__missing_counts *missing;
+  float *velocity;
+  double *number;
+  unsigned char *mask; /* 1 where they are above 0 */
+} sink;
+
+/* Puts a row of stored samples to places `step` apart from `first` on; a reversed axis
+ * has a negative step. */
+static void put(const sink *target, size_t first, ptrdiff_t step, const double *stored,
+                size_t count)
+{
+  fg__missing_counts ignored = {0};
+  const sink to = *target;
+  fg__missing_counts *missing = to.missing ? to.missing : &ignored;
+  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step)) {
+    const double value = fg__unpack(&to.packing, stored[i], missing);
+    if (to.number)
+      to.number[at] = value;
+    else if (to.mask)
+      to.mask[at] = value > 0.0; /* false for NaN */
+    /* finite, but larger than float: still larger than any accepted speed */
+    else if (!isinf(stored[i]) && fabs(value) > (double)FLT_MAX)
+      to.velocity[at] = value > 0.0 ? FLT_MAX : -FLT_MAX;
+    else
+      to.velocity[at] = (float)value;
+  }
+}
 
 static size_t values_at_once(const fg__variable *v)
 {
@@ -63,7 +89,7 @@ static size_t values_at_once(const fg__variable *v)
 }
 
 static fg_status read_slab(slab s, const fg__dataset *data, const fg__variable *v,
-                           sink *put, void *target)
+                           const sink *target)
 {
   const size_t row = s.inner_axis->size;
   const size_t rows = s.outer_axis->size;
@@ -92,66 +118,15 @@ static fg_status read_slab(slab s, const fg__dataset *data, const fg__variable *
   return status;
 }
 
-typedef struct value_sink {
-  const fg__packing *packing;
-  fg__missing_counts *missing;
-  float *out;
-} value_sink;
-
-static void put_values(void *target, size_t first, ptrdiff_t step, const double *stored,
-                       size_t count)
-{
-  const value_sink *to = target;
-  const fg__packing p = *to->packing;
-  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step)) {
-    const double value = fg__unpack(&p, stored[i], to->missing);
-    /* finite, but larger than float: still larger than any accepted speed */
-    if (!isinf(stored[i]) && fabs(value) > (double)FLT_MAX)
-      to->out[at] = value > 0.0 ? FLT_MAX : -FLT_MAX;
-    else
-      to->out[at] = (float)value;
-  }
-}
-
 fg_status fg__read_values(float *out, fg__missing_counts *missing,
                           const fg__dataset *data, const fg__variable *variable,
                           const fg__grid *grid, size_t time, size_t level)
 {
-  const fg__packing p = fg__packing_of(variable);
   const int position[FG__ROLES] = {grid->axis[0].position, grid->axis[1].position,
                                    grid->time, grid->level};
-  value_sink to = {&p, missing, out};
-  const slab s = slab_of(variable, grid, position, time, level);
-  return read_slab(s, data, variable, put_values, &to);
-}
-
-typedef struct mask_sink {
-  const fg__packing *packing;
-  unsigned char *out;
-} mask_sink;
-
-static void put_mask(void *target, size_t first, ptrdiff_t step, const double *stored,
-                     size_t count)
-{
-  const mask_sink *to = target;
-  fg__missing_counts ignored = {0};
-  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step))
-    to->out[at] = fg__unpack(to->packing, stored[i], &ignored) > 0.0; /* false for NaN */
-}
-
-typedef struct number_sink {
-  const fg__packing *packing;
-  double *out;
-} number_sink;
-
-static void put_numbers(void *target, size_t first, ptrdiff_t step, const double *stored,
-                        size_t count)
-{
-  const number_sink *to = target;
-  const fg__packing p = *to->packing;
-  fg__missing_counts ignored = {0};
-  for (size_t i = 0, at = first; i < count; ++i, at = next_place(at, step))
-    to->out[at] = fg__unpack(&p, stored[i], &ignored);
+  const sink to = {
+      .packing = fg__packing_of(variable), .missing = missing, .velocity = out};
+  return read_slab(slab_of(variable, grid, position, time, level), data, variable, &to);
 }
 
 /* The variable's dimension that corresponds to one of the component's, or -1. */
@@ -218,10 +193,8 @@ fg_status fg__read_mask(unsigned char *out, const fg__dataset *data,
     return fg__fail(data->context, FG_STATUS_ARGUMENT,
                     "%s: the mask '%s' does not lie on the grid of '%s'", variable->path,
                     variable->name, component->name);
-  const fg__packing p = fg__packing_of(variable);
-  mask_sink to = {&p, out};
-  const slab s = slab_of(variable, grid, position, time, level);
-  return read_slab(s, data, variable, put_mask, &to);
+  const sink to = {.packing = fg__packing_of(variable), .mask = out};
+  return read_slab(slab_of(variable, grid, position, time, level), data, variable, &to);
 }
 
 fg_status fg__read_doubles(double *out, const fg__dataset *data,
@@ -233,24 +206,20 @@ fg_status fg__read_doubles(double *out, const fg__dataset *data,
     return fg__fail(data->context, FG_STATUS_FILE_FORMAT,
                     "%s: '%s' does not lie on the grid of '%s'", variable->path,
                     variable->name, component->name);
-  const fg__packing p = fg__packing_of(variable);
-  number_sink to = {&p, out};
-  const slab s = slab_of(variable, grid, position, time, level);
-  return read_slab(s, data, variable, put_numbers, &to);
+  const sink to = {.packing = fg__packing_of(variable), .number = out};
+  return read_slab(slab_of(variable, grid, position, time, level), data, variable, &to);
 }
 
 fg_status fg__read_all(double *out, const fg__dataset *data, const fg__variable *variable)
 {
-  const fg__packing p = fg__packing_of(variable);
+  const sink to = {.packing = fg__packing_of(variable), .number = out};
   size_t start[FG__RANK] = {0}, size[FG__RANK], count = 1;
   for (int k = 0; k < variable->rank; ++k) {
     size[k] = data->dimensions[variable->dimension[k]].length;
     count *= size[k];
   }
   const fg_status status = fg__variable_fetch(variable, start, size, out);
-  if (status != FG_STATUS_OK)
-    return status;
-  number_sink to = {&p, out};
-  put_numbers(&to, 0, 1, out, count);
-  return FG_STATUS_OK;
+  if (status == FG_STATUS_OK)
+    put(&to, 0, 1, out, count);
+  return status;
 }

@@ -45,7 +45,7 @@ static void empty_maps_say_what_they_lack(void **state)
   fg_field *field = make(*state), *out;
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     fg_map_options options = {.has_region = true};
-    memcpy(options.region, cases[k].region, sizeof options.region);
+    memcpy(options.region, cases[k].region, sizeof cases[k].region);
     const fg_status status = fg_field_project(&out, *state, field, &options);
     assert_int_equal(status, cases[k].words ? FG_STATUS_ARGUMENT : FG_STATUS_OK);
     if (cases[k].words && !strstr(fg_context_message(*state), cases[k].words))

@@ -81,10 +81,50 @@ static size_t name_gaps(char doubts[FG__REASON_BYTES], const fg__grid *grid)
   return gaps;
 }
 
+/* The part of a grid that the dataset's region needs, where the field goes on no map and
+ * its axes are plain ones; else all of it. */
+static fg_status find_part(fg__grid *out, const fg__dataset *data, const fg__pair *pair,
+                           const fg__grid *grid)
+{
+  char plane[FG__TEXT_BYTES];
+  bool plain =
+      data->region.axes > 0 && data->region.axes <= grid->dimension &&
+      grid->scale != FG_SCALE_GEO && !has_two_layers(grid) &&
+      (grid->scale != FG_SCALE_MAP ||
+       !(grid->projection[0] || fg__axes_plane(plane, pair->component[0], grid)));
+  for (int k = 0; k < grid->dimension; ++k)
+    plain = plain && !(grid->axis[k].period > 0.0) &&
+            fg__axis_gaps(grid->axis[k].coordinate, grid->axis[k].size) == 0;
+  *out = *grid;
+  if (!plain)
+    return FG_STATUS_OK;
+  out->whole = grid;
+  out->samples = 1;
+  for (int k = 0; k < grid->dimension; ++k) {
+    fg__grid_axis *axis = &out->axis[k];
+    fg__region_range part;
+    const fg_status status =
+        fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
+                        axis->name, axis->coordinate, axis->size);
+    if (status != FG_STATUS_OK)
+      return status;
+    axis->first += axis->reversed ? axis->size - part.first - part.count : part.first;
+    axis->coordinate += part.first;
+    axis->size = part.count;
+    out->samples *= part.count;
+  }
+  return FG_STATUS_OK;
+}
+
 static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
-                            const fg__grid *grid, const fg_read_options *options,
+                            const fg__grid *whole, const fg_read_options *options,
                             fg__slab_index slab)
 {
+  fg__grid part;
+  const fg__grid *grid = &part;
+  fg_status status = find_part(&part, data, pair, whole);
+  if (status != FG_STATUS_OK)
+    return status;
   fg__vector_words words;
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
@@ -92,18 +132,20 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   char doubts[FG__REASON_BYTES];
   double *axis[3] = {NULL, NULL, NULL}; /* with lines in gaps */
   memcpy(doubts, grid->doubts, sizeof doubts);
-  const bool gaps = name_gaps(doubts, grid) > 0;
-  if (last->period > 0.0 || has_two_layers(grid) || gaps)
+  const bool gaps = !grid->whole && name_gaps(doubts, grid) > 0;
+  const bool layers = !grid->whole && has_two_layers(grid);
+  if (last->period > 0.0 || layers || gaps)
     slab = (fg__slab_index){0, 1};
   const fg__rows rows = fg__rows_of(&slab, (int)last->size, false);
-  fg_status status = fg__vector_words_find(&words, data, pair, grid, options);
+  status = fg__vector_words_find(&words, data, pair, grid, options);
   if (status == FG_STATUS_OK)
     status =
         fg__velocity_samples_read(&read, data, pair, grid, &rows, (size_t)options->time,
                                   (size_t)options->level, options->mask);
   if (status == FG_STATUS_OK && grid->dimension == 2)
     status = fg__projection_turn(read.velocity, data, grid, &rows);
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && slab.count == 1; ++k)
+  const bool all = slab.count == 1 && !grid->whole;
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && all; ++k)
     status = check_missing(data, pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
     fg_field_arrays arrays = {.dimension = grid->dimension,
@@ -139,9 +181,7 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples_clear(&read);
   for (int k = 0; k < 3; ++k)
     free(axis[k]);
-  return status == FG_STATUS_OK && has_two_layers(grid)
-             ? fg__drop_layer(out, data->context)
-             : status;
+  return status == FG_STATUS_OK && layers ? fg__drop_layer(out, data->context) : status;
 }
 
 static fg_status check_level(const fg__dataset *data, const fg__grid *grid, int level)
@@ -208,15 +248,16 @@ fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
 }
 
 /* Two layers of a volume may be a plane. */
-static void describe_layers(fg_inventory_vector *vector, const fg__dataset *data,
-                            const fg__pair *pair, const fg__grid *grid)
+static void describe_layers(fg_inventory_vector *vector, char name[3][FG__TEXT_BYTES],
+                            const fg__dataset *data, const fg__pair *pair,
+                            const fg__grid *grid)
 {
   const fg_read_options first = fg__first_samples(pair, grid);
   fg_field *field = NULL;
   if (make_field(&field, data, pair, grid, &first, (fg__slab_index){0, 1}))
     fg_context_clear(data->context);
   if (field && fg_field_contents(field)->dimension == 2)
-    fg__describe_field(vector, field);
+    fg__describe_field(vector, name, field);
   fg_field_destroy(field);
 }
 
@@ -247,7 +288,7 @@ static fg_status add_vector(fg_inventory *inventory, fg_inventory_vector *vector
 /* Texts that a vector of the inventory points to. */
 typedef struct vector_texts {
   char units[FG__TEXT_BYTES], plane[FG__TEXT_BYTES], chosen[FG__TEXT_BYTES];
-  char polar[FG__TEXT_BYTES];
+  char polar[FG__TEXT_BYTES], axis_name[3][FG__TEXT_BYTES];
   char frame[3 * FG__TEXT_BYTES + 4];    /* a projection, and its directions */
   char unusable[3 * FG__TEXT_BYTES + 2]; /* the reason and the hint */
 } vector_texts;
@@ -275,21 +316,29 @@ static const char *describe_polar(vector_texts *texts, const fg__pair *pair,
   return texts->frame;
 }
 
-static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid)
+/* Of the part in the dataset's region, which ends at the region's bounds. */
+static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
+                          const fg__field_region *region)
 {
   for (int k = 0; k < grid->dimension; ++k) {
     const fg__grid_axis *axis = &grid->axis[k];
     vector->size[k] = (int)axis->size;
+    vector->axis_name[k] = axis->name;
     if (axis->coordinate) {
       vector->bounds[2 * k] = axis->coordinate[0];
       vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
+    }
+    if (grid->whole && k < region->axes) {
+      vector->bounds[2 * k] = fmax(vector->bounds[2 * k], region->low[k]);
+      vector->bounds[2 * k + 1] = fmin(vector->bounds[2 * k + 1], region->high[k]);
     }
   }
 }
 
 /* Fills in what requires reading the mesh or all samples. */
-static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset *data,
-                                  const fg__pair *pair, fg__grid *grid)
+static fg_status describe_samples(fg_inventory_vector *vector, vector_texts *texts,
+                                  const fg__dataset *data, const fg__pair *pair,
+                                  fg__grid *grid)
 {
   if (grid->mesh)
     return fg__curvilinear_describe(vector, data, pair, grid);
@@ -298,7 +347,7 @@ static fg_status describe_samples(fg_inventory_vector *vector, const fg__dataset
   if (grid->domain)
     return fg__space_count(vector, data, pair, grid);
   if (has_two_layers(grid))
-    describe_layers(vector, data, pair, grid);
+    describe_layers(vector, texts->axis_name, data, pair, grid);
   return fg__velocity_missing(&vector->missing_share, data, pair, grid);
 }
 
@@ -346,7 +395,12 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
   if (on_axes) {
-    describe_axes(&vector, grid);
+    fg__grid part = *grid;
+    if (status == FG_STATUS_OK && !grid->unusable[0])
+      status = find_part(&part, data, pair, grid);
+    if (status != FG_STATUS_OK)
+      return status;
+    describe_axes(&vector, &part, &data->region);
     name_gaps(grid->doubts, grid);
   }
   if (grid->domain && status == FG_STATUS_OK)
@@ -359,7 +413,7 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
     if (on_axes && !grid->projection[0])
       vector.plane = fg__axes_plane(texts.plane, pair->component[0], grid);
     if (status == FG_STATUS_OK && reads)
-      status = describe_samples(&vector, data, pair, grid);
+      status = describe_samples(&vector, &texts, data, pair, grid);
     if (status == FG_STATUS_ARGUMENT) { /* an option decides */
       status = FG_STATUS_OK;
       take_refusal(texts.unusable, sizeof texts.unusable, data);
@@ -409,16 +463,5 @@ fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
   fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = describe_grid(inventory, &c->data, &c->pair, &c->grid, options, false);
-  return fg__vector_choice_leave(c, status);
-}
-
-fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__dataset_format *format, const fg__source *source,
-                               const fg_read_options *options)
-{
-  fg__vector_choice *c;
-  fg_status status = fg__vector_choice_enter(&c, context, format, source, options);
-  if (status == FG_STATUS_OK)
-    status = fg__defaults_find(out, &c->data, &c->pair, &c->grid, options);
   return fg__vector_choice_leave(c, status);
 }

@@ -32,9 +32,6 @@ fg_status fg__dataset_check(const fg__dataset *data, fg_status status);
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
                                 const fg__dataset_format *format,
                                 const fg__source *source, const fg_read_options *options);
-fg_status fg__dataset_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__dataset_format *format, const fg__source *source,
-                               const fg_read_options *options);
 fg_status fg__dataset_read(fg_field **out, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source,
                            const fg_read_options *options, fg__slab_index slab);
@@ -50,20 +47,10 @@ fg_status fg__dataset_tensors(fg_field *row[2], bool *found, fg_context *context
 /* Defines these functions of a fg__format for a fg__dataset_format. */
 #define FG__DATASET_HOOKS(format)                                                        \
   static fg_status inventory_hook(fg_inventory *inventory, fg_context *context,          \
-                                  const fg__source *source)                              \
-  {                                                                                      \
-    return fg__dataset_inventory(inventory, context, &(format), source, NULL);           \
-  }                                                                                      \
-  static fg_status chosen_hook(fg_inventory *inventory, fg_context *context,             \
-                               const fg__source *source, const fg_read_options *options) \
+                                  const fg__source *source,                              \
+                                  const fg_read_options *options)                        \
   {                                                                                      \
     return fg__dataset_inventory(inventory, context, &(format), source, options);        \
-  }                                                                                      \
-  static fg_status defaults_hook(fg_read_defaults *out, fg_context *context,             \
-                                 const fg__source *source,                               \
-                                 const fg_read_options *options)                         \
-  {                                                                                      \
-    return fg__dataset_defaults(out, context, &(format), source, options);               \
   }                                                                                      \
   static fg_status read_hook(fg_field **out, fg_context *context,                        \
                              const fg__source *source, const fg_read_options *options,   \

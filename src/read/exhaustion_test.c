@@ -2,7 +2,7 @@
  * something that the file lacks, and nothing is left behind. */
 #include "base/context_test.h"
 #include "base/refusal_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 #include "read/vtk/cells_example.h"
 
 typedef fg_status use(const sample_file *f, const fg_read_options *options);

@@ -55,7 +55,6 @@ static const struct {
     {"<!doctype html",
      {"a web page", "it may tell why what was to be loaded is not there"}},
     {"<html", {"a web page", "it may tell why what was to be loaded is not there"}},
-    {"<Xdmf", {"XDMF", SAVE_AS_VTK}},
     {"FoamFile",
      {"a file of OpenFOAM", "write the case as VTK, by foamToVTK or ParaView"}},
     {"# OOMMF OVF", {"an OVF file of OOMMF", SAVE_ARRAYS}},
@@ -68,7 +67,6 @@ static const struct {
   const char *name;
   fg__foreign foreign;
 } GROUPS[] = {
-    {"VTKHDF", {"VTKHDF", "save it as .vti, .vtu or .vtp, as ParaView does"}},
     {"CGNSLibraryVersion", {"CGNS in HDF5", SAVE_AS_VTK}},
     {"FlowSolution", {"CGNS in HDF5", SAVE_AS_VTK}},
 };

@@ -14,15 +14,10 @@ typedef struct fg__format {
   bool has_dimensions; /* knows the options mesh_from and at */
   const char *files;   /* which ones it reads; NULL: another says it, or none are read */
   bool (*is_mine)(const unsigned char *bytes, size_t size);
+  /* options: NULL for all vectors; else the one that `read` would give, without reading
+   * samples. */
   fg_status (*inventory)(fg_inventory *inventory, fg_context *context,
-                         const fg__source *source);
-  /* The same of the one vector that `read` would give, without its missing share; NULL:
-   * found among all by --vars, or the first that can be read. */
-  fg_status (*inventory_chosen)(fg_inventory *inventory, fg_context *context,
-                                const fg__source *source, const fg_read_options *options);
-  /* fg_read_defaults_find; NULL: level 0, and all coordinates are there. */
-  fg_status (*defaults)(fg_read_defaults *out, fg_context *context,
-                        const fg__source *source, const fg_read_options *options);
+                         const fg__source *source, const fg_read_options *options);
   fg_status (*read)(fg_field **out, fg_context *context, const fg__source *source,
                     const fg_read_options *options, fg__slab_index slab);
   /* Vectors whose points lie on no two axes, as a field on the sphere; *out stays NULL
@@ -36,11 +31,13 @@ typedef struct fg__format {
 } fg__format;
 
 extern const fg__format fg__format_exodus; /* of NetCDF files: before these */
+extern const fg__format fg__format_vtkhdf; /* of HDF5: the same */
 extern const fg__format fg__format_netcdf;
 extern const fg__format fg__format_grib;
 extern const fg__format fg__format_vti;
 extern const fg__format fg__format_vtk_legacy;
 extern const fg__format fg__format_vtk_series;
+extern const fg__format fg__format_xdmf;
 extern const fg__format fg__format_npy;
 extern const fg__format fg__format_npz;
 extern const fg__format fg__format_table; /* any text: the last */

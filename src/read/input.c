@@ -10,6 +10,7 @@
 #include "read/title.h"
 
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,10 +65,15 @@ static fg_status read_analytic(fg_field **out, fg_context *context, const char *
   if (options->scale == FG_SCALE_GEO || options->scale == FG_SCALE_MAP)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: an analytic field is neither on the globe nor on a map", input);
-  if (fg__map_is_named(options->map))
+  const fg_map_options *map = options->map;
+  if (fg__map_is_asked(map) &&
+      (map->has_center || (map->projection && strcmp(map->projection, "auto") != 0)))
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: an analytic field is on no map",
                     input);
-  return fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
+  const fg_status status =
+      fg_field_create_analytic(out, context, input + sizeof SYNTHETIC - 1, 0);
+  const fg__field_region region = fg__region_asked(options);
+  return status == FG_STATUS_OK ? fg__region_cut(out, context, input, &region) : status;
 }
 
 static fg_status read_file(fg_field **out, fg_context *context, const fg_input *input,
@@ -99,12 +105,23 @@ static fg_status read_slice(fg_field **out, fg_context *context, const fg_input 
 {
   fg_field *volume = NULL, *whole = NULL;
   fg_plane plane;
-  fg_status status = read_slab(&volume, context, input, options, (fg__slab_index){0, 1});
+  fg_read_options of_volume = *options;
+  const fg__field_region region = fg__region_asked(options);
+  fg_map_options map;
+  if (region.axes == 2) { /* in the plane of the cut */
+    map = *options->map;
+    map.has_region = false;
+    of_volume.map = &map;
+  }
+  fg_status status =
+      read_slab(&volume, context, input, &of_volume, (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK)
     status = fg_plane_parse(&plane, context, options->slice, volume);
   if (status == FG_STATUS_OK)
     status = fg_field_slice(&whole, context, volume, &plane);
   fg_field_destroy(volume);
+  if (status == FG_STATUS_OK && region.axes == 2)
+    status = fg__region_cut(&whole, context, input->name, &region);
   if (status == FG_STATUS_OK && slab.count > 1) {
     status = fg__field_slab_of(out, context, whole, slab);
     fg_field_destroy(whole);
@@ -121,6 +138,13 @@ static uint64_t mix_text(uint64_t key, const char *text)
   return fg__mix(key);
 }
 
+static uint64_t bits_of(double number)
+{
+  uint64_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  return bits;
+}
+
 /* Parts that were read otherwise do not belong together. */
 static uint64_t key_of_reading(const char *input, const fg_read_options *options)
 {
@@ -131,6 +155,9 @@ static uint64_t key_of_reading(const char *input, const fg_read_options *options
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
+  const fg__field_region region = fg__region_asked(options);
+  for (int k = 0; k < region.axes; ++k)
+    key = fg__mix(fg__mix(key ^ bits_of(region.low[k])) ^ bits_of(region.high[k]));
   key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
@@ -180,6 +207,7 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
                                 .scale = arrays->scale};
   for (int k = 0; k < arrays->dimension; ++k) {
     vector.name[k] = arrays->velocity_name[k];
+    vector.axis_name[k] = arrays->axis_name[k];
     vector.size[k] = arrays->size[k];
     vector.bounds[2 * k] = arrays->axis[k][0];
     vector.bounds[2 * k + 1] = arrays->axis[k][arrays->size[k] - 1];
@@ -190,51 +218,18 @@ static fg_status describe_analytic(fg_inventory *inventory, fg_context *context,
   return status;
 }
 
-/* Lists all vectors, or the one to be read. */
-static fg_status describe(fg_inventory *inventory, fg_context *context,
-                          const fg_input *input, bool all)
-{
-  const fg__format *format = input->format;
-  if (!format)
-    return describe_analytic(inventory, context, input->name + sizeof SYNTHETIC - 1);
-  if (!all && format->inventory_chosen)
-    return format->inventory_chosen(inventory, context, &input->source, &input->options);
-  fg_status status = format->inventory(inventory, context, &input->source);
-  if (status == FG_STATUS_OK && !all)
-    fg__inventory_choose(inventory, &input->options);
-  return status;
-}
-
 static fg_status answer_inventory(fg_inventory **out, fg_context *context,
                                   const fg_input *input, bool all)
 {
-  fg_status status = fg__inventory_create(
-      out, context, input->format ? input->format->name : "analytic");
-  return status == FG_STATUS_OK
-             ? name_the_file(context, describe(*out, context, input, all), input)
-             : status;
-}
-
-static fg_status answer(fg__answer *out, fg_context *context, fg_input *input,
-                        const fg__question *question)
-{
   const fg__format *format = input->format;
-  switch (question->kind) {
-  case FG__ASK_DEFAULTS:
-    return format && format->defaults
-               ? name_the_file(context,
-                               format->defaults(&out->defaults, context, &input->source,
-                                                &input->options),
-                               input)
-               : FG_STATUS_OK;
-  case FG__ASK_VECTOR:
-  case FG__ASK_ALL_VECTORS:
-    return answer_inventory(&out->inventory, context, input,
-                            question->kind == FG__ASK_ALL_VECTORS);
-  case FG__ASK_FIELD:
-    return answer_field(&out->field, context, input, question);
-  }
-  return FG_STATUS_ARGUMENT;
+  fg_status status =
+      fg__inventory_create(out, context, format ? format->name : "analytic");
+  if (status != FG_STATUS_OK)
+    return status;
+  status = format ? format->inventory(*out, context, &input->source,
+                                      all ? NULL : &input->options)
+                  : describe_analytic(*out, context, input->name + sizeof SYNTHETIC - 1);
+  return name_the_file(context, status, input);
 }
 
 fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input,
@@ -242,7 +237,10 @@ fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input
 {
   const fg__source *source = &input->source;
   *out = (fg__answer){.field = NULL};
-  fg_status status = answer(out, context, input, question);
+  fg_status status = question->kind == FG__ASK_FIELD
+                         ? answer_field(&out->field, context, input, question)
+                         : answer_inventory(&out->inventory, context, input,
+                                            question->kind == FG__ASK_ALL_VECTORS);
   if (source->on_disk)
     status = fg__source_check(context, status, source->path, source->size);
   if (status != FG_STATUS_OK) {
@@ -290,6 +288,7 @@ void fg_input_close(fg_input *input)
     input->kept.close(input->kept.data);
   fg__source_close(&input->source, NULL, FG_STATUS_OK);
   fg_inventory_destroy(input->inventory);
+  fg_inventory_destroy(input->all);
   free(input);
 }
 
@@ -300,24 +299,46 @@ static fg_status ask(fg__answer *out, fg_context *context, fg_input *input,
                                    : fg__input_answer)(out, context, input, question);
 }
 
+/* Asks for an inventory unless it is there. */
+static fg_status keep_inventory(const fg_inventory **out, fg_inventory **kept,
+                                fg_context *context, fg_input *input,
+                                fg__question_kind kind)
+{
+  fg__answer answer = {.inventory = *kept};
+  fg_status status = FG_STATUS_OK;
+  if (!*kept)
+    status = ask(&answer, context, input, &(fg__question){.kind = kind});
+  *out = *kept = answer.inventory;
+  return status;
+}
+
 fg_status fg_input_inventory(const fg_inventory **out, fg_context *context,
                              fg_input *input)
 {
-  fg__answer answer = {.inventory = input->inventory};
-  fg_status status = FG_STATUS_OK;
-  if (!input->inventory)
-    status = ask(&answer, context, input, &(fg__question){.kind = FG__ASK_VECTOR});
-  input->inventory = answer.inventory;
-  *out = input->inventory;
-  return status;
+  return keep_inventory(out, &input->inventory, context, input, FG__ASK_VECTOR);
+}
+
+fg_status fg_input_vectors(const fg_inventory **out, fg_context *context, fg_input *input)
+{
+  return keep_inventory(out, &input->all, context, input, FG__ASK_ALL_VECTORS);
+}
+
+static fg_read_defaults defaults_of(const fg_inventory *inventory)
+{
+  fg_read_defaults out = {0};
+  const fg_inventory_vector *vector = fg_inventory_vector_at(inventory, 0);
+  if (vector && !vector->unusable) {
+    out.level = vector->usual_level;
+    snprintf(out.absent, sizeof out.absent, "%s", vector->absent ? vector->absent : "");
+  }
+  return out;
 }
 
 fg_status fg_input_defaults(fg_read_defaults *out, fg_context *context, fg_input *input)
 {
-  fg__answer answer;
-  const fg_status status =
-      ask(&answer, context, input, &(fg__question){.kind = FG__ASK_DEFAULTS});
-  *out = answer.defaults;
+  const fg_inventory *inventory;
+  const fg_status status = fg_input_inventory(&inventory, context, input);
+  *out = defaults_of(inventory);
   return status;
 }
 
@@ -383,16 +404,19 @@ fg_status fg_inventory_read_chosen(fg_inventory **out, fg_context *context,
   fg__answer answer;
   const fg_status status = ask_once(&answer, out, context, input, options,
                                     &(fg__question){.kind = FG__ASK_VECTOR});
-  *out = answer.inventory;
+  if (out)
+    *out = answer.inventory;
   return status;
 }
 
 fg_status fg_read_defaults_find(fg_read_defaults *out, fg_context *context,
                                 const char *input, const fg_read_options *options)
 {
-  fg__answer answer;
-  const fg_status status = ask_once(&answer, out, context, input, options,
-                                    &(fg__question){.kind = FG__ASK_DEFAULTS});
-  *out = answer.defaults;
+  fg_inventory *inventory;
+  if (!out)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "no place for what is read");
+  const fg_status status = fg_inventory_read_chosen(&inventory, context, input, options);
+  *out = defaults_of(inventory);
+  fg_inventory_destroy(inventory);
   return status;
 }

@@ -22,12 +22,12 @@ struct fg_input {
   const fg__format *format; /* NULL: an analytic field */
   fg__kept kept;
   fg_inventory *inventory; /* of the chosen vector, once it was asked for */
+  fg_inventory *all;       /* of all vectors, likewise */
   fg__isolation isolation;
   void (*decoded)(void); /* called once samples are read, before a map is made; or NULL */
 };
 
 typedef enum fg__question_kind {
-  FG__ASK_DEFAULTS,
   FG__ASK_VECTOR,
   FG__ASK_ALL_VECTORS,
   FG__ASK_FIELD
@@ -41,7 +41,6 @@ typedef struct fg__question {
 
 /* Of a question's kind. */
 typedef struct fg__answer {
-  fg_read_defaults defaults;
   fg_inventory *inventory;
   fg_field *field;
 } fg__answer;

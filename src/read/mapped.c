@@ -4,6 +4,7 @@
 #include "map/project.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* On longitudes and latitudes, or on a plane that is to become another. */
 static bool goes_on_map(const fg_field *field, const fg_map_options *map)
@@ -12,6 +13,42 @@ static bool goes_on_map(const fg_field *field, const fg_map_options *map)
   return arrays->dimension == 2 &&
          (arrays->scale == FG_SCALE_GEO ||
           (arrays->scale == FG_SCALE_MAP && arrays->projection && fg__map_is_named(map)));
+}
+
+fg__field_region fg__region_asked(const fg_read_options *options)
+{
+  const fg_map_options *map = options->map;
+  fg__field_region out = {.axes = 0};
+  if (!fg__map_is_asked(map) || !map->has_region)
+    return out;
+  out.axes = map->region_is_box ? 3 : 2;
+  for (int k = 0; k < out.axes; ++k) {
+    out.low[k] = map->region[2 * k];
+    out.high[k] = map->region[2 * k + 1];
+  }
+  return out;
+}
+
+/* Whether a region is all that is asked of a map: fields on none are cut by it. */
+static bool is_region_alone(const fg_map_options *map)
+{
+  return map && map->has_region && !map->has_center &&
+         (!map->projection || strcmp(map->projection, "auto") == 0);
+}
+
+/* The part of a field in a region, or a slab of it. */
+static fg_status cut(fg_field **out, fg_context *context, fg__file_field *samples,
+                     const char *path, const fg__field_region *region,
+                     fg__slab_index slab)
+{
+  fg_status status = fg__region_cut(&samples->field, context, path, region);
+  if (status == FG_STATUS_OK && slab.count > 1)
+    return fg__field_slab_of(out, context, samples->field, slab);
+  if (status == FG_STATUS_OK) {
+    *out = samples->field;
+    samples->field = NULL;
+  }
+  return status;
 }
 
 static fg_status refuse(fg_context *context, const char *path, const fg_field *field)
@@ -73,6 +110,8 @@ fg_status fg__file_field_read(fg__file_field *out, fg_context *context,
     if (status != FG_STATUS_OK || out->sphere)
       return status;
   }
+  if (fg__region_asked(options).axes > 0) /* each rank cuts the whole field */
+    slab = (fg__slab_index){0, 1};
   const fg_status status = format->read(&out->field, context, source, options, slab);
   if (status != FG_STATUS_OK || slab.count == 1 || !fg__map_is_asked(options->map) ||
       !goes_on_map(out->field, options->map))
@@ -87,15 +126,23 @@ fg_status fg__file_field_place(fg_field **out, fg_context *context,
                                const fg_read_options *options, fg__slab_index slab)
 {
   const fg_map_options *map = fg__map_is_asked(options->map) ? options->map : NULL;
+  const fg__field_region region = fg__region_asked(options);
   fg_status status = FG_STATUS_OK;
   *out = NULL;
-  if (samples->sphere && map)
+  if (region.axes == 3 && (samples->sphere || goes_on_map(samples->field, map)))
+    status = fg__fail(context, FG_STATUS_ARGUMENT,
+                      "%s: a region of six numbers, and the field goes on a map: west, "
+                      "east, south and north are needed",
+                      path);
+  else if (samples->sphere && map)
     status =
         fg__sphere_project(out, context, samples->sphere, map, slab.number, slab.count);
   else if (samples->sphere)
     status = fg__globe_field(out, context, samples->sphere, slab);
   else if (map && goes_on_map(samples->field, map))
     status = project(out, context, samples->field, path, map, slab);
+  else if (is_region_alone(map))
+    status = cut(out, context, samples, path, &region, slab);
   else if (fg__map_is_named(map))
     status = refuse(context, path, samples->field);
   else {

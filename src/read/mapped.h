@@ -2,6 +2,7 @@
 #ifndef FG__MAPPED_H
 #define FG__MAPPED_H
 
+#include "field/region.h"
 #include "read/format.h"
 
 /* A field as its file has it: on axes, or on the sphere. */
@@ -15,6 +16,10 @@ typedef struct fg__file_field {
 fg_status fg__file_field_read(fg__file_field *out, fg_context *context,
                               const fg__format *format, const fg__source *source,
                               const fg_read_options *options, fg__slab_index slab);
+
+/* The part of a field on no map that options ask for; a cut by a plane has a region in
+ * its own two axes. */
+fg__field_region fg__region_asked(const fg_read_options *options);
 
 /* Makes a slab of the field. Where options->map chooses a map, a field in longitude and
  * latitude is projected to it; a file's own plane stays as it is under "auto" alone, and

@@ -105,6 +105,46 @@ static void write_legacy(FILE *file, const char *path, const scalars *s)
   }
 }
 
+static void write_vtkhdf(FILE *file, const char *path, const scalars *s)
+{
+  int id, group, samples, dimension[2], variable;
+  (void)file;
+  must(!nc_create(path, NC_NETCDF4 | NC_CLOBBER, &id), path);
+  must(!nc_def_grp(id, "VTKHDF", &group), path);
+  must(!nc_put_att_int(group, NC_GLOBAL, "Version", NC_INT, 2, (int[]){1, 0}), path);
+  must(!nc_put_att_text(group, NC_GLOBAL, "Type", 9, "ImageData"), path);
+  must(!nc_put_att_int(group, NC_GLOBAL, "WholeExtent", NC_INT, 6,
+                       (int[]){0, N - 1, 0, N - 1, 0, 0}),
+       path);
+  must(!nc_def_grp(group, "PointData", &samples), path);
+  for (int k = 0; k < 2; ++k)
+    must(!nc_def_dim(samples, k ? "along" : "across", N, &dimension[k]), path);
+  for (int i = 0; i < s->count; ++i) {
+    double values[COUNT];
+    for (int n = 0; n < COUNT; ++n)
+      values[n] = value_of(i, n);
+    must(!nc_def_var(samples, s->name[i], NC_DOUBLE, 2, dimension, &variable), path);
+    must(!nc_put_var_double(samples, variable, values), s->name[i]);
+  }
+  must(!nc_close(id), path);
+}
+
+static void write_xdmf(FILE *file, const char *path, const scalars *s)
+{
+  (void)path;
+  fputs("<Xdmf><Domain><Grid><Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"3 "
+        "3\"/><Geometry GeometryType=\"ORIGIN_DXDY\"><DataItem Dimensions=\"2\">0 "
+        "0</DataItem><DataItem Dimensions=\"2\">1 1</DataItem></Geometry>",
+        file);
+  for (int i = 0; i < s->count; ++i) {
+    fprintf(file, "<Attribute Name=\"%s\"><DataItem Dimensions=\"3 3\">", s->name[i]);
+    for (int n = 0; n < COUNT; ++n)
+      fprintf(file, "%g ", value_of(i, n));
+    fputs("</DataItem></Attribute>", file);
+  }
+  fputs("</Grid></Domain></Xdmf>", file);
+}
+
 /* Squares of an unstructured grid (kind Cells), or of polygons. */
 static void write_squares(FILE *file, const scalars *s, const char *grid,
                           const char *cells, const char *counts, bool typed)
@@ -231,9 +271,10 @@ static void write_npz(FILE *file, const char *path, const scalars *s)
 static const struct {
   const char *file;
   void (*write)(FILE *file, const char *path, const scalars *s);
-} FORMATS[] = {{"a.nc", write_netcdf}, {"a.vti", write_vti}, {"a.vtk", write_legacy},
-               {"a.vtu", write_vtu},   {"a.vtp", write_vtp}, {"a.csv", write_csv},
-               {"a.npz", write_npz}};
+} FORMATS[] = {
+    {"a.nc", write_netcdf}, {"a.vti", write_vti},       {"a.vtk", write_legacy},
+    {"a.vtu", write_vtu},   {"a.vtp", write_vtp},       {"a.csv", write_csv},
+    {"a.npz", write_npz},   {"a.vtkhdf", write_vtkhdf}, {"a.xdmf", write_xdmf}};
 enum { FORMAT_COUNT = sizeof FORMATS / sizeof *FORMATS };
 
 /* "u,v", "-" or "?". */

@@ -2,6 +2,7 @@
 #include "interpret/projector.h"
 #include "map/map.h"
 #include "read/dataset.h"
+#include "read/mapped.h"
 #include "sample/space/space.h"
 
 /* What files of that kind, or this one, leave to choose from. */
@@ -38,6 +39,8 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)
     status = fg__settle_names(data);
+  if (options && options->scale != FG_SCALE_GEO)
+    data->region = fg__region_asked(options);
   return status == FG_STATUS_OK && data->space.is_there ? fg__space_domain_open(data)
                                                         : status;
 }

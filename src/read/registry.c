@@ -8,8 +8,8 @@
 #include <string.h>
 
 static const fg__format *const FORMATS[] = {
-    &fg__format_exodus, &fg__format_netcdf,     &fg__format_grib,
-    &fg__format_vti,    &fg__format_vtk_legacy, &fg__format_vtk_series,
+    &fg__format_exodus, &fg__format_vtkhdf,     &fg__format_netcdf,     &fg__format_grib,
+    &fg__format_vti,    &fg__format_vtk_legacy, &fg__format_vtk_series, &fg__format_xdmf,
     &fg__format_npy,    &fg__format_npz,        &fg__format_table};
 enum { KNOWN_BYTES = 512 };
 

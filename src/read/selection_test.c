@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -87,6 +88,17 @@ static void times_with_units_in_words(void **state)
       {"3d", "1"}, {"6 days", "2"}, {"72 hour", "1"}, {"4d", "near 1"}};
   (void)state;
   expect(expected, sizeof expected / sizeof *expected, "time", elapsed, 3);
+}
+
+/* Dates of texts have no numbers (WRF). */
+static void dates_without_numbers(void **state)
+{
+  static const fg_axis_value texts[] = {{(double)NAN, "", "2010-07-15 12:00"},
+                                        {(double)NAN, "", "2010-07-16"},
+                                        {(double)NAN, "", "2010-07-16 00:00:30"}};
+  static const expectation expected[] = {{"2010-07-16", "1"}};
+  (void)state;
+  expect(expected, 1, "time", texts, 3);
 }
 
 static void years(void **state)
@@ -200,6 +212,7 @@ int main(void)
       cmocka_unit_test(dates_indices_and_values_of_times),
       cmocka_unit_test(values_of_levels_with_units),
       cmocka_unit_test(times_with_units_in_words),
+      cmocka_unit_test(dates_without_numbers),
       cmocka_unit_test(years),
       cmocka_unit_test(what_is_not_there_is_refused_with_what_is),
       cmocka_unit_test(misspelt_wishes_are_known_before_reading),

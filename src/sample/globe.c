@@ -123,6 +123,8 @@ void fg__globe_describe(fg_inventory_vector *vector, const fg__sphere_extent *ex
   const raster r = has_area(extent) ? raster_of(extent) : (raster){0};
   vector->size[0] = r.size[0];
   vector->size[1] = r.size[1];
+  vector->axis_name[0] = "longitude";
+  vector->axis_name[1] = "latitude";
   vector->bounds[0] = extent->west;
   vector->bounds[1] = extent->east;
   vector->bounds[2] = extent->south;

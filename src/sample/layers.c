@@ -111,7 +111,8 @@ fg_status fg__drop_layer(fg_field **field, fg_context *context)
   return FG_STATUS_OK;
 }
 
-void fg__describe_field(fg_inventory_vector *vector, const fg_field *field)
+void fg__describe_field(fg_inventory_vector *vector, char name[3][FG__TEXT_BYTES],
+                        const fg_field *field)
 {
   const fg_field_arrays *a = fg_field_contents(field);
   vector->dimension = vector->components = a->dimension;
@@ -120,6 +121,8 @@ void fg__describe_field(fg_inventory_vector *vector, const fg_field *field)
     vector->bounds[2 * k] = a->axis[k][0];
     vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
     vector->periodic[k] = a->period[k] > 0.0;
+    snprintf(name[k], FG__TEXT_BYTES, "%s", a->axis_name[k]);
+    vector->axis_name[k] = name[k];
   }
   vector->scale = a->scale;
 }

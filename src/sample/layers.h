@@ -2,6 +2,7 @@
 #ifndef FG__LAYERS_H
 #define FG__LAYERS_H
 
+#include "dataset/dataset.h"
 #include "flowgrain/inventory.h"
 
 /* Replaces a whole field in 3D, of which two layers across an axis have the same vectors,
@@ -9,6 +10,7 @@
 fg_status fg__drop_layer(fg_field **field, fg_context *context);
 
 /* Size, bounds and scale of a field, as an inventory has them. */
-void fg__describe_field(fg_inventory_vector *vector, const fg_field *field);
+void fg__describe_field(fg_inventory_vector *vector, char name[3][FG__TEXT_BYTES],
+                        const fg_field *field);
 
 #endif

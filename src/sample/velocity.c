@@ -214,8 +214,9 @@ static fg__raw_samples raw_of(const fg__velocity_samples *samples, const source 
 /* All rows, some at a time. */
 static fg_status look_at_all(fg__extremes *out, const source *from)
 {
-  const int all = (int)from->grid->axis[from->grid->dimension - 1].size;
-  const int once = rows_at_once(from->grid);
+  const fg__grid *grid = from->grid->whole ? from->grid->whole : from->grid;
+  const int all = (int)grid->axis[grid->dimension - 1].size;
+  const int once = rows_at_once(grid);
   fg_status status = FG_STATUS_OK;
   *out = (fg__extremes){.count = 0};
   for (int first = 0; first < all && status == FG_STATUS_OK; first += once) {
@@ -223,6 +224,7 @@ static fg_status look_at_all(fg__extremes *out, const source *from)
     const fg__rows rows = {first, own, own};
     source part = *from;
     fg__velocity_samples samples = {0};
+    part.grid = grid;
     part.rows = &rows;
     status = read_raw(&samples, &part);
     if (status == FG_STATUS_OK) {
@@ -247,7 +249,8 @@ static fg_status settle_missing(const fg__velocity_samples *out, const source *f
   fg__extremes_add(extremes, &raw);
   if (from->extremes || data->missing.none)
     return FG_STATUS_OK;
-  if ((size_t)from->rows->own < from->grid->axis[from->grid->dimension - 1].size &&
+  if ((from->grid->whole ||
+       (size_t)from->rows->own < from->grid->axis[from->grid->dimension - 1].size) &&
       fg__extremes_are_suspect(extremes, raw.components))
     status = look_at_all(extremes, from);
   return status == FG_STATUS_OK

@@ -180,20 +180,20 @@ cmp -s out9uniform/scale-01.geojson out9auto/scale-01.geojson && fault "the mesh
 [ "$(cut -d, -f9 out9auto/evolution.csv | sort -u | tr '\n' ' ')" = "262144 65536 cells " ] ||
   fault "evolution.csv: $(cut -d, -f9 out9auto/evolution.csv | sort -u | tr '\n' ' ')"
 done_with "an adaptive mesh is halved as clusters grow"
-# over measured wind the directions of a coarser mesh are others
+# directions of measured wind change within the width of an interface
 try run "$root/data/gfs_20140131.nc" -o out9wind --projection none --nodes 513 --clusters 60,24 --no-arrows --quiet
 expect_code 0
-expect_json out9wind/run.json '.energy_monotone == false and .energy_monotone_between_coarsenings
-  and (.mesh.coarser | length) == 1 and .mesh.coarser[0].energy_after > .mesh.coarser[0].energy_before'
+expect_json out9wind/run.json '.energy_monotone and (.mesh.coarser | length) == 1
+  and .mesh.coarser[0].energy_after <= .mesh.coarser[0].energy_before'
 awk -F, -v "$(jq -r '.mesh.coarser[0] | "step=\(.step)"' out9wind/run.json)" \
   -v "$(jq -r '.mesh.coarser[0] | "before=\(.energy_before)"' out9wind/run.json)" \
   -v "$(jq -r '.mesh.coarser[0] | "after=\(.energy_after)"' out9wind/run.json)" '
-  NR > 2 && $1 != step + 1 && $4 > energy { print "step " $1 ": energy rises to " $4; exit }
+  NR > 2 && $4 > energy { print "step " $1 ": energy rises to " $4; exit }
   $1 == step && ($4 / before - 1) ^ 2 > 1e-20 { print "step " $1 ": energy " $4 ", not " before; exit }
-  $1 == step + 1 && !($4 > before && $4 <= after) { print "step " $1 ": energy " $4; exit }
+  $1 == step + 1 && !($4 <= after) { print "step " $1 ": energy " $4; exit }
   { energy = $4 }' out9wind/evolution.csv >fault.txt
 [ ! -s fault.txt ] || fault "$(cat fault.txt)"
-done_with "run.json tells where a coarser mesh raises the energy"
+done_with "the energy does not grow where the mesh is coarsened over measured wind"
 fi
 
 gamma=(run synth:vortex3 --nodes 65 --gamma 2e-3 --max-steps 40 --clusters 30 --quiet --formats svg)

@@ -13,7 +13,7 @@ static void describe(const fg__format *format, fg_context *context,
   fg_inventory *inventory = NULL;
   if (fg__inventory_create(&inventory, context, format->name))
     return;
-  const fg_status status = format->inventory(inventory, context, source);
+  const fg_status status = format->inventory(inventory, context, source, NULL);
   assert(status == FG_STATUS_OK || fg_context_message(context)[0]);
   fg_inventory_destroy(inventory);
   fg_context_clear(context);

@@ -8,7 +8,7 @@
 #include <png.h>
 
 #include "make_corpus.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 #include "read/vtk/cells_example.h"
 
 static void must(int64_t id)

@@ -1,4 +1,4 @@
-/* Any bytes as a NetCDF file, classic or NetCDF-4, and as one of Exodus. */
+/* Any bytes as a NetCDF file, classic or NetCDF-4, and as one of Exodus or VTKHDF. */
 #include "fuzz.h"
 
 #include "fields.h"
@@ -21,7 +21,9 @@ static void choose_sample(const uint8_t *bytes, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
   const bool exodus = try_format(&fg__format_exodus, "fuzz.exo", bytes, size);
-  fg__fuzz_was_read = try_format(&fg__format_netcdf, "fuzz.nc", bytes, size) || exodus;
+  const bool vtkhdf = try_format(&fg__format_vtkhdf, "fuzz.vtkhdf", bytes, size);
+  fg__fuzz_was_read =
+      try_format(&fg__format_netcdf, "fuzz.nc", bytes, size) || exodus || vtkhdf;
   choose_sample(bytes, size);
   return 0;
 }

@@ -147,7 +147,6 @@ fg_status fg__vtk_names_choose_time(fg__dataset *data, fg__vtk_names *list,
   double *time = fg__allocate(list->count, sizeof *time);
   if (!time)
     return fg__fail_memory(data->context, "times", list->count * sizeof *time);
-  data->time = time;
   for (size_t i = 0; i < list->count; ++i)
     time[i] = list->entry[i].time;
   qsort(time, list->count, sizeof *time, by_number);
@@ -155,13 +154,9 @@ fg_status fg__vtk_names_choose_time(fg__dataset *data, fg__vtk_names *list,
   for (size_t i = 0; i < list->count; ++i)
     if (times == 0 || time[i] > time[times - 1])
       time[times++] = time[i];
-  data->times = (int)times;
-  if (times == 0)
-    return FG_STATUS_OK;
-  if (wanted < 0 || (size_t)wanted >= times)
-    return fg__fail(data->context, FG_STATUS_ARGUMENT,
-                    "%s: time %d is asked for; there are %zu, from 0 on", path, wanted,
-                    times);
+  const fg_status status = fg__dataset_choose_time(data, path, time, times, wanted);
+  if (status != FG_STATUS_OK || times == 0)
+    return status;
   for (size_t i = 0; i < list->count; ++i)
     keep_or_drop(list, &kept, i,
                  list->entry[i].time <= time[wanted] &&

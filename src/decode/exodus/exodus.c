@@ -127,19 +127,17 @@ static fg_status choose_time(fg__dataset *data, fg__exodus *e,
   const int wanted = options ? options->time : 0;
   if (e->times == 0 || e->times > INT_MAX || !v)
     return FG_STATUS_OK;
-  if (wanted < 0 || (size_t)wanted >= e->times)
-    return fg__fail(data->context, FG_STATUS_ARGUMENT,
-                    "%s: time %d is asked for; there are %zu, from 0 on",
-                    data->file[0].path, wanted, e->times);
   fg_status status = fg__exodus_check(e, v, &first, &e->times, 1);
   if (status != FG_STATUS_OK)
     return status;
-  data->time = fg__allocate(e->times, sizeof *data->time);
-  if (!data->time)
-    return fg__fail_memory(data->context, "times", e->times * sizeof *data->time);
-  data->times = (int)e->times;
+  double *time = fg__allocate(e->times, sizeof *time);
+  if (!time)
+    return fg__fail_memory(data->context, "times", e->times * sizeof *time);
+  status = fg__dataset_choose_time(data, data->file[0].path, time, e->times, wanted);
   e->time = (size_t)wanted;
-  return fg__exodus_numbers(data->time, e, v, &first, &e->times, 1);
+  return status == FG_STATUS_OK
+             ? fg__exodus_numbers(data->time, e, v, &first, &e->times, 1)
+             : status;
 }
 
 static fg_status find_sizes(fg__exodus *e)

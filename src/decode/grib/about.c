@@ -10,9 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may allocate to decode a field's keys. */
-enum { MOST_BYTES = 256 << 20 };
-
 /* Steps of a forecast: ecCodes goes to its date by single days. */
 enum { MOST_STEPS = 1000000000 };
 
@@ -38,22 +35,9 @@ static uint64_t mix_bytes(uint64_t key, const unsigned char *bytes, size_t size,
 /* Minutes of a unit of time; 0: it is none that has always as many. */
 static int64_t minutes_of(unsigned unit)
 {
-  switch (unit) {
-  case 0:
-    return 1;
-  case 1:
-    return 60;
-  case 2:
-    return 24 * 60;
-  case 10:
-    return 3 * 60;
-  case 11:
-    return 6 * 60;
-  case 12:
-    return 12 * 60;
-  default:
-    return 0;
-  }
+  static const short minutes[] = {
+      [0] = 1, [1] = 60, [2] = 24 * 60, [10] = 3 * 60, [11] = 6 * 60, [12] = 12 * 60};
+  return unit < sizeof minutes / sizeof *minutes ? minutes[unit] : 0;
 }
 
 /* Whether a date can be one; ecCodes judges others. */
@@ -241,7 +225,7 @@ static fg_status ask(telling *t, const fg__grib_file *file, const fg__grib_field
   t->field = field;
   fg_status status = check_unit(file, field);
   if (status == FG_STATUS_OK)
-    status = fg__grib_guard(file, field, MOST_BYTES + field->size, tell, t);
+    status = fg__grib_guard(file, field, tell, t);
   if (status == FG_STATUS_OK && t->error)
     return fg__fail(file->context, FG_STATUS_FILE_FORMAT,
                     "%s: message %zu does not say what it is of: %s", file->path,

@@ -171,11 +171,10 @@ uint64_t fg__grib_number(const unsigned char *at, int bytes);
 /* library.c: ecCodes, which may stop at damaged messages, and prints. */
 
 /* Calls work(data), which calls ecCodes. Where ecCodes finds itself in a state that must
- * not be, or allocates more than `most` bytes, it is left by longjmp, and its memory
- * is lost: FILE_FORMAT. Else OK; `work` reports its own failures through data. */
+ * not be, it is left by longjmp, and its memory is lost: FILE_FORMAT. Else OK; `work`
+ * reports its own failures through data. */
 fg_status fg__grib_guard(const fg__grib_file *file, const fg__grib_field *field,
-                         size_t most, void (*work)(codes_handle *handle, void *data),
-                         void *data);
+                         void (*work)(codes_handle *handle, void *data), void *data);
 
 /* Reads a word of a message's key; "": there is none. */
 void fg__grib_word(codes_handle *handle, const char *key, char *out, size_t size);
@@ -223,9 +222,6 @@ fg_status fg__grib_plane_add(fg__variable *variable, const fg__grib_grid *grid);
 /* rows.c. How large a mesh is, and its parts. MEMORY. */
 void fg__grib_mesh_count(fg__grib_mesh *out, const fg__grib_grid *grid);
 fg_status fg__grib_mesh_make(fg__grib_grid *grid, fg_context *context);
-
-/* png.c: whether an image is whole, one that libpng unpacks without complaint. */
-bool fg__grib_is_png(const unsigned char *png, size_t size);
 
 /* packing.c: whether an image of JPEG 2000 says that it has one component of `count`
  * samples. */

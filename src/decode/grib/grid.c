@@ -8,9 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may allocate to decode a grid, beside its message. */
-enum { MOST_BYTES = 256 << 20 };
-
 /* A field may have so many points, and so many more for each byte of its message: fields
  * of one value take none for theirs, and compression has its limit. */
 enum { POINTS = 1 << 21, POINTS_A_BYTE = 1024 };
@@ -165,19 +162,6 @@ static fg_status fill_longitudes(fg__grib_grid *grid, fg_context *context,
   return FG_STATUS_OK;
 }
 
-typedef struct gaussian {
-  double *latitude;
-  long rows;
-  int error;
-} gaussian;
-
-static void ask_gaussian(codes_handle *handle, void *data)
-{
-  gaussian *g = data;
-  (void)handle;
-  g->error = codes_get_gaussian_latitudes(g->rows, g->latitude);
-}
-
 /* Those of all latitudes of a Gaussian grid that are the field's: from the one nearest to
  * the first on. They come from north to south. */
 static void take_gaussian(fg__grib_grid *grid, const double *all, size_t count,
@@ -198,8 +182,8 @@ static void take_gaussian(fg__grib_grid *grid, const double *all, size_t count,
     grid->axis[1][grid->size[1] - 1 - j] = all[at + j];
 }
 
-static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
-                               const fg__grib_field *field, const fg__grib_numbers *n)
+static fg_status fill_gaussian(fg__grib_grid *grid, fg_context *context,
+                               const fg__grib_numbers *n)
 {
   const size_t half = count_of(n->gaussian);
   if (half == 0 || half > MOST_GAUSSIAN || grid->size[1] > 2 * half) {
@@ -209,25 +193,22 @@ static fg_status fill_gaussian(fg__grib_grid *grid, const fg__grib_file *file,
                       grid->size[1], n->gaussian);
     return FG_STATUS_OK;
   }
-  gaussian all = {.rows = (long)half};
-  all.latitude = fg__allocate(2 * half, sizeof *all.latitude);
-  if (!all.latitude)
-    return fg__fail_memory(file->context, "latitudes", 2 * half * sizeof *all.latitude);
-  fg_status status =
-      fg__grib_guard(file, field, MOST_BYTES + field->size, ask_gaussian, &all);
-  if (status == FG_STATUS_OK && all.error)
-    fg__grib_unusable(grid, "its Gaussian latitudes: %s",
-                      codes_get_error_message(all.error));
-  else if (status == FG_STATUS_OK)
-    take_gaussian(grid, all.latitude, 2 * half, n);
-  free(all.latitude);
-  return status;
+  double *latitude = fg__allocate(2 * half, sizeof *latitude);
+  if (!latitude)
+    return fg__fail_memory(context, "latitudes", 2 * half * sizeof *latitude);
+  const int error = codes_get_gaussian_latitudes((long)half, latitude);
+  if (error)
+    fg__grib_unusable(grid, "its Gaussian latitudes: %s", codes_get_error_message(error));
+  else
+    take_gaussian(grid, latitude, 2 * half, n);
+  free(latitude);
+  return FG_STATUS_OK;
 }
 
-static fg_status fill_latitudes(fg__grib_grid *grid, const fg__grib_file *file,
-                                const fg__grib_field *field, const fg__grib_numbers *n)
+static fg_status fill_latitudes(fg__grib_grid *grid, fg_context *context,
+                                const fg__grib_numbers *n)
 {
-  fg_status status = allocate_axis(grid, file->context, 1);
+  fg_status status = allocate_axis(grid, context, 1);
   const double first = n->first[1], last = n->last[1];
   if (status != FG_STATUS_OK)
     return status;
@@ -238,18 +219,16 @@ static fg_status fill_latitudes(fg__grib_grid *grid, const fg__grib_file *file,
     return FG_STATUS_OK;
   }
   if (strstr(grid->type, "gg"))
-    return fill_gaussian(grid, file, field, n);
+    return fill_gaussian(grid, context, n);
   fill_evenly(grid->axis[1], grid->size[1], first, last);
   return FG_STATUS_OK;
 }
 
-static fg_status find_regular(fg__grib_grid *grid, const fg__grib_file *file,
-                              const fg__grib_field *field, const fg__grib_numbers *n)
+static fg_status find_regular(fg__grib_grid *grid, fg_context *context,
+                              const fg__grib_numbers *n)
 {
-  fg_status status = fill_longitudes(grid, file->context, n);
-  if (status == FG_STATUS_OK)
-    status = fill_latitudes(grid, file, field, n);
-  return status;
+  const fg_status status = fill_longitudes(grid, context, n);
+  return status == FG_STATUS_OK ? fill_latitudes(grid, context, n) : status;
 }
 
 typedef enum row_kind {
@@ -326,8 +305,7 @@ static fg_status find_rows(fg__grib_grid *grid, fg_context *context, const askin
   return FG_STATUS_OK;
 }
 
-static fg_status find_reduced(fg__grib_grid *grid, const fg__grib_file *file,
-                              const fg__grib_field *field, const asking *a)
+static fg_status find_reduced(fg__grib_grid *grid, fg_context *context, const asking *a)
 {
   if (a->rows < 2 || a->rows != grid->size[1] || grid->x_descends || grid->along_y ||
       grid->alternates || !isfinite(a->numbers.first[0]) ||
@@ -337,9 +315,9 @@ static fg_status find_reduced(fg__grib_grid *grid, const fg__grib_file *file,
                       grid->size[1], a->rows);
     return FG_STATUS_OK;
   }
-  fg_status status = fill_latitudes(grid, file, field, &a->numbers);
+  fg_status status = fill_latitudes(grid, context, &a->numbers);
   if (status == FG_STATUS_OK && !grid->unusable[0])
-    status = find_rows(grid, file->context, a);
+    status = find_rows(grid, context, a);
   return status;
 }
 
@@ -392,7 +370,7 @@ static void check_counts(fg__grib_grid *grid, const fg__grib_field *field,
     fg__grib_unusable(grid, "its southern pole is at %g, %g", n->pole[0], n->pole[1]);
 }
 
-static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
+static fg_status find(fg__grib_grid *grid, fg_context *context,
                       const fg__grib_field *field, const asking *a)
 {
   const fg__grib_numbers *n = &a->numbers;
@@ -414,10 +392,10 @@ static fg_status find(fg__grib_grid *grid, const fg__grib_file *file,
   if (grid->unusable[0])
     return FG_STATUS_OK;
   if (grid->layout == FG__GRIB_PLANE)
-    return fg__grib_plane(grid, file->context, n);
+    return fg__grib_plane(grid, context, n);
   const fg_status status = grid->layout == FG__GRIB_REDUCED
-                               ? find_reduced(grid, file, field, a)
-                               : find_regular(grid, file, field, n);
+                               ? find_reduced(grid, context, a)
+                               : find_regular(grid, context, n);
   if (grid->layout != FG__GRIB_LONLAT && status == FG_STATUS_OK && !grid->unusable[0])
     fg__grib_mesh_count(&grid->mesh, grid);
   return status;
@@ -428,8 +406,7 @@ fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
 {
   asking a = {.error = CODES_SUCCESS};
   memset(out, 0, sizeof *out);
-  fg_status status =
-      fg__grib_guard(file, field, MOST_BYTES + 4 * field->size, ask_numbers, &a);
+  fg_status status = fg__grib_guard(file, field, ask_numbers, &a);
   if (status == FG_STATUS_OK && a.exhausted)
     status = fg__fail_memory(file->context, "rows", a.rows * sizeof *a.row);
   if (status == FG_STATUS_OK && a.error)
@@ -437,7 +414,7 @@ fg_status fg__grib_grid_find(fg__grib_grid *out, const fg__grib_file *file,
                       "%s: message %zu does not say its grid: %s", file->path,
                       field->number, codes_get_error_message(a.error));
   if (status == FG_STATUS_OK)
-    status = find(out, file, field, &a);
+    status = find(out, file->context, field, &a);
   free(a.row);
   return status;
 }

@@ -1,5 +1,5 @@
-/* ecCodes behind a guard. It was made for sound messages: at others it may print, abort
- * the process, or allocate as much memory as a number in them says. */
+/* ecCodes behind a guard. It was made for sound messages: at others it may print or abort
+ * the process. (The child process that reads for the program bounds its memory.) */
 #include "base/memory.h"
 #include "decode/grib/grib.h"
 
@@ -11,68 +11,28 @@
 /* Beyond the message, for readers that look a few bytes too far. */
 enum { BEHIND = 64 };
 
-/* What an allocation takes beside its bytes: many of none end, too. */
-enum { OVERHEAD = 64 };
-
 typedef struct guard {
   jmp_buf back;
   bool active;
-  size_t left; /* bytes that may still be allocated */
   char reason[FG__TEXT_BYTES];
 } guard;
 
 static _Thread_local guard here;
 
-static void leave(const char *reason)
-{
-  here.active = false;
-  snprintf(here.reason, sizeof here.reason, "%s", reason);
-  longjmp(here.back, 1);
-}
-
 /* "ecCodes assertion failed: `x >= 0' in /usr/src/eccodes/src/y.c:12" */
-static void leave_assertion(const char *message)
+static void leave(const char *message)
 {
   if (!here.active)
     abort();
   const char *begin = strchr(message, '`'), *end = begin ? strchr(begin, '\'') : NULL;
-  char reason[FG__TEXT_BYTES];
+  here.active = false;
   if (end)
-    snprintf(reason, sizeof reason, "ecCodes finds that %.*s does not hold",
+    snprintf(here.reason, sizeof here.reason, "ecCodes finds that %.*s does not hold",
              end - begin - 1 < FG__GRIB_WORD ? (int)(end - begin - 1) : FG__GRIB_WORD,
              begin + 1);
   else
-    snprintf(reason, sizeof reason, "ecCodes can not go on with it");
-  leave(reason);
-}
-
-static void count_bytes(size_t bytes)
-{
-  if (!here.active)
-    return;
-  if (bytes > here.left || here.left - bytes < OVERHEAD)
-    leave("ecCodes asks for more memory than its values can take");
-  here.left -= bytes + OVERHEAD;
-}
-
-static void *counted_malloc(const codes_context *context, size_t bytes)
-{
-  (void)context;
-  count_bytes(bytes);
-  return malloc(bytes);
-}
-
-static void *counted_realloc(const codes_context *context, void *memory, size_t bytes)
-{
-  (void)context;
-  count_bytes(bytes);
-  return realloc(memory, bytes);
-}
-
-static void counted_free(const codes_context *context, void *memory)
-{
-  (void)context;
-  free(memory);
+    snprintf(here.reason, sizeof here.reason, "ecCodes can not go on with it");
+  longjmp(here.back, 1);
 }
 
 static void say_nothing(const codes_context *context, int level, const char *message)
@@ -82,19 +42,13 @@ static void say_nothing(const codes_context *context, int level, const char *mes
   (void)message;
 }
 
-static void begin(size_t most)
+static void begin(void)
 {
-  codes_context *context = codes_context_get_default();
-  codes_context_set_memory_proc(context, counted_malloc, counted_free, counted_realloc);
-  codes_context_set_buffer_memory_proc(context, counted_malloc, counted_free,
-                                       counted_realloc);
-  codes_context_set_logging_proc(context, say_nothing);
-  codes_set_codes_assertion_failed_proc(leave_assertion);
-  here.left = most;
+  codes_context_set_logging_proc(codes_context_get_default(), say_nothing);
+  codes_set_codes_assertion_failed_proc(leave);
   here.active = true;
 }
 
-/* The memory's procedures stay: without a guard they are malloc and free. */
 static void end(void)
 {
   here.active = false;
@@ -102,14 +56,14 @@ static void end(void)
   codes_set_codes_assertion_failed_proc(NULL);
 }
 
-static bool try_work(unsigned char *message, size_t size, size_t most,
+static bool try_work(unsigned char *message, size_t size,
                      void (*work)(codes_handle *handle, void *data), void *data)
 {
   if (setjmp(here.back)) {
     end();
     return false;
   }
-  begin(most);
+  begin();
   codes_handle *handle = codes_handle_new_from_message(NULL, message, size);
   work(handle, data);
   if (handle)
@@ -147,15 +101,14 @@ static size_t copy_message(unsigned char *out, const fg__grib_field *field)
 }
 
 fg_status fg__grib_guard(const fg__grib_file *file, const fg__grib_field *field,
-                         size_t most, void (*work)(codes_handle *handle, void *data),
-                         void *data)
+                         void (*work)(codes_handle *handle, void *data), void *data)
 {
   /* sections that fields share: their sum is less than the message and its last bitmap */
   unsigned char *message = fg__allocate(2 * field->size + BEHIND, 1);
   if (!message)
     return fg__fail_memory(file->context, "a message", 2 * field->size + BEHIND);
   const size_t size = copy_message(message, field);
-  const bool done = try_work(message, size, most, work, data);
+  const bool done = try_work(message, size, work, data);
   free(message);
   if (done)
     return FG_STATUS_OK;

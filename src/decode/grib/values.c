@@ -6,10 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What ecCodes may allocate, and how much more for each value and each byte of the
- * message. */
-enum { MOST_BYTES = 256 << 20, BYTES_A_VALUE = 256, BYTES_A_BYTE = 16 };
-
 /* Stands for a missing value while ecCodes has them; no velocity is as large. */
 static const double MISSING = 1e36;
 
@@ -66,9 +62,6 @@ static const char *check_second_edition(const fg__grib_field *field, size_t poin
     return "its values are cut off";
   if (template == 4 && (size < 12 || (data_size - 5) / 4 < count))
     return "its values are cut off";
-  if (template == 41 && size >= 21 && packing[19] > 0 && count > 0 &&
-      !fg__grib_is_png(data + 5, data_size - 5))
-    return "its values are an image that is damaged";
   if (template == 40 && size >= 21 && packing[19] > 0 && count > 0 &&
       !fg__grib_jpeg_has(data + 5, data_size - 5, count))
     return "its values are an image that is damaged, or of another size";
@@ -126,9 +119,7 @@ static fg_status unpack_all(double *value, const fg__grib_file *file,
                             const fg__grib_field *field, const fg__grib_grid *grid)
 {
   unpacking u = {.value = value, .count = grid->points};
-  const size_t most =
-      MOST_BYTES + BYTES_A_VALUE * grid->points + BYTES_A_BYTE * field->size;
-  fg_status status = fg__grib_guard(file, field, most, unpack, &u);
+  const fg_status status = fg__grib_guard(file, field, unpack, &u);
   if (status != FG_STATUS_OK)
     return status;
   if (u.error)

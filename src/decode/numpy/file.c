@@ -42,22 +42,21 @@ static fg_status open_entry(numpy_state *file, size_t i, unsigned char *header)
 {
   const fg__zip_entry *entry = &file->zip.entry[i];
   fg__npy_array *array = &file->array[i];
-  size_t got = 0, length;
+  size_t got = 0;
   memcpy(array->name, entry->name, sizeof array->name);
   array->entry = i;
   file->count = i + 1;
   fg_status status =
       fg__zip_extract(header, HEADER, &got, file->context, file->path, entry);
   if (status == FG_STATUS_OK)
-    status = fg__npy_header(array, &length, file->context, file->path, header, got,
-                            entry->size);
+    status = fg__npy_header(array, file->context, file->path, header, got, entry->size);
   if (status == FG_STATUS_UNSUPPORTED) {
     fg_context_clear(file->context);
     *array = (fg__npy_array){0};
     return FG_STATUS_OK;
   }
   if (status == FG_STATUS_OK && !entry->deflated)
-    array->data = entry->bytes + length;
+    array->data = entry->bytes + array->header;
   return status;
 }
 
@@ -75,16 +74,15 @@ static fg_status open_archive(numpy_state *file, const fg__source *source)
 
 static fg_status open_arrays(numpy_state *file, const fg__source *source)
 {
-  size_t header;
+  fg__npy_array *array = &file->array[0];
   if (fg__is_npz(source->bytes, source->size))
     return open_archive(file, source);
   file->count = 1;
-  strcpy(file->array[0].name, "array");
-  const fg_status status =
-      fg__npy_header(&file->array[0], &header, file->context, file->path, source->bytes,
-                     source->size, source->size);
+  strcpy(array->name, "array");
+  const fg_status status = fg__npy_header(array, file->context, file->path, source->bytes,
+                                          source->size, source->size);
   if (status == FG_STATUS_OK)
-    file->array[0].data = source->bytes + header;
+    array->data = source->bytes + array->header;
   return status;
 }
 
@@ -94,19 +92,15 @@ static fg_status load(numpy_state *file, fg__npy_array *array)
   if (array->data)
     return FG_STATUS_OK;
   const fg__zip_entry *entry = &file->zip.entry[array->entry];
-  size_t got, header;
+  size_t got;
   free(array->owned);
   array->owned = fg__allocate(entry->size, 1);
   if (!array->owned)
     return fg__fail_memory(file->context, "an array", entry->size);
-  fg_status status =
+  const fg_status status =
       fg__zip_extract(array->owned, entry->size, &got, file->context, file->path, entry);
-  fg__npy_array again = {.name = ""};
   if (status == FG_STATUS_OK)
-    status = fg__npy_header(&again, &header, file->context, file->path, array->owned, got,
-                            entry->size);
-  if (status == FG_STATUS_OK)
-    array->data = array->owned + header;
+    array->data = array->owned + array->header;
   return status;
 }
 
@@ -133,23 +127,6 @@ static double half_value(uint16_t bits)
   return bits >> 15 ? -size : size;
 }
 
-static double take_float(const fg__npy_array *array, size_t index)
-{
-  uint16_t half = 0;
-  float number = 0.0f;
-  double precise = 0.0;
-  if (array->item == sizeof half) {
-    take_bytes(&half, array, index);
-    return half_value(half);
-  }
-  if (array->item == sizeof number) {
-    take_bytes(&number, array, index);
-    return (double)number;
-  }
-  take_bytes(&precise, array, index);
-  return precise;
-}
-
 static double value_at(const fg__npy_array *array, size_t index)
 {
   union {
@@ -161,20 +138,31 @@ static double value_at(const fg__npy_array *array, size_t index)
     uint16_t u2;
     uint32_t u4;
     uint64_t u8;
+    float f4;
+    double f8;
   } n = {.u8 = 0};
-  if (array->kind == FG__NPY_FLOAT || array->kind == FG__NPY_COMPLEX)
-    return take_float(array, index);
   take_bytes(&n, array, index);
-  const bool is_signed = array->kind == FG__NPY_SIGNED;
-  switch (array->item) {
-  case 1:
-    return is_signed ? n.i1 : n.u1;
-  case 2:
-    return is_signed ? n.i2 : n.u2;
-  case 4:
-    return is_signed ? (double)n.i4 : (double)n.u4;
+  switch (array->type) {
+  case FG__TYPE_INT8:
+    return n.i1;
+  case FG__TYPE_UINT8:
+    return n.u1;
+  case FG__TYPE_INT16:
+    return n.i2;
+  case FG__TYPE_UINT16:
+    return n.u2;
+  case FG__TYPE_INT32:
+    return (double)n.i4;
+  case FG__TYPE_UINT32:
+    return (double)n.u4;
+  case FG__TYPE_INT64:
+    return (double)n.i8;
+  case FG__TYPE_UINT64:
+    return (double)n.u8;
+  case FG__TYPE_FLOAT32:
+    return array->item == sizeof n.u2 ? half_value(n.u2) : (double)n.f4;
   default:
-    return is_signed ? (double)n.i8 : (double)n.u8;
+    return n.f8;
   }
 }
 
@@ -212,25 +200,6 @@ static void close_state(void *state)
 static const fg__decoder DECODER = {
     .fetch = fetch, .close = close_state, .has_no_titles = true};
 
-static fg__type type_of(const fg__npy_array *a)
-{
-  static const fg__type of_bytes[3][9] = {
-      [FG__NPY_FLOAT] =
-          {[2] = FG__TYPE_FLOAT32, [4] = FG__TYPE_FLOAT32, [8] = FG__TYPE_FLOAT64},
-      [FG__NPY_SIGNED] = {[1] = FG__TYPE_INT8,
-                          [2] = FG__TYPE_INT16,
-                          [4] = FG__TYPE_INT32,
-                          [8] = FG__TYPE_INT64},
-      [FG__NPY_UNSIGNED] = {[1] = FG__TYPE_UINT8,
-                            [2] = FG__TYPE_UINT16,
-                            [4] = FG__TYPE_UINT32,
-                            [8] = FG__TYPE_UINT64}};
-  const fg__npy_kind kind = a->kind == FG__NPY_BOOL      ? FG__NPY_UNSIGNED
-                            : a->kind == FG__NPY_COMPLEX ? FG__NPY_FLOAT
-                                                         : a->kind;
-  return of_bytes[kind][a->item];
-}
-
 /* The dimension without a name of a length; several of one length in one array are told
  * apart by their number there. -1: no memory. */
 static int find_dimension(fg__dataset *dataset, size_t length, int which)
@@ -259,7 +228,7 @@ static fg_status add_view(fg__dataset *dataset, numpy_state *file, const view *w
   fg__variable *v = fg__dataset_add_variable(dataset, "", name);
   if (!v)
     return FG_STATUS_MEMORY;
-  v->type = type_of(w->array);
+  v->type = w->array->type;
   v->rank = w->rank;
   v->element = element;
   v->in_one_run = true;
@@ -273,9 +242,8 @@ static fg_status add_view(fg__dataset *dataset, numpy_state *file, const view *w
     if (v->dimension[k] < 0)
       return FG_STATUS_MEMORY;
   }
-  return w->array->kind == FG__NPY_BOOL
-             ? fg__variable_add_text(v, "dtype", "bool", strlen("bool"))
-             : FG_STATUS_OK;
+  return w->array->is_bool ? fg__variable_add_text(v, "dtype", "bool", strlen("bool"))
+                           : FG_STATUS_OK;
 }
 
 static view whole_view(fg__npy_array *a)
@@ -301,7 +269,7 @@ static view across(view w, int axis, size_t number)
 /* The axis that counts an array's components; -1: none. */
 static int component_axis(const fg__npy_array *a)
 {
-  if ((a->rank != 3 && a->rank != 4) || a->kind == FG__NPY_BOOL)
+  if ((a->rank != 3 && a->rank != 4) || a->is_bool)
     return -1;
   const size_t components = (size_t)a->rank - 1;
   const bool first = a->shape[0] == components,
@@ -323,7 +291,7 @@ static void share_name(fg__dataset *dataset, size_t component)
 static fg_status add_array(fg__dataset *dataset, numpy_state *file, fg__npy_array *a)
 {
   const view whole = whole_view(a);
-  const bool complex = a->kind == FG__NPY_COMPLEX;
+  const bool complex = a->is_complex;
   const int axis = component_axis(a);
   const size_t components = complex ? 2 : axis < 0 ? 0 : a->shape[axis];
   fg_status status = complex ? FG_STATUS_OK : add_view(dataset, file, &whole, a->name, 0);
@@ -338,8 +306,8 @@ static fg_status add_array(fg__dataset *dataset, numpy_state *file, fg__npy_arra
 
 static bool is_table(const fg__npy_array *a)
 {
-  return a->name[0] && a->rank == 2 && a->kind != FG__NPY_COMPLEX &&
-         a->kind != FG__NPY_BOOL && (a->shape[1] == 4 || a->shape[1] == 6);
+  return a->name[0] && a->rank == 2 && !a->is_complex && !a->is_bool &&
+         (a->shape[1] == 4 || a->shape[1] == 6);
 }
 
 static fg_status add_columns(fg__dataset *dataset, numpy_state *file)

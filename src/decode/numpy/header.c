@@ -104,24 +104,26 @@ static bool is_little(void)
 static bool find_type(fg__npy_array *out, const char *descr)
 {
   static const struct {
-    const char *type;
-    fg__npy_kind kind;
+    const char *name;
+    fg__type type;
     size_t item;
-  } known[] = {{"f2", FG__NPY_FLOAT, 2},    {"f4", FG__NPY_FLOAT, 4},
-               {"f8", FG__NPY_FLOAT, 8},    {"i1", FG__NPY_SIGNED, 1},
-               {"i2", FG__NPY_SIGNED, 2},   {"i4", FG__NPY_SIGNED, 4},
-               {"i8", FG__NPY_SIGNED, 8},   {"u1", FG__NPY_UNSIGNED, 1},
-               {"u2", FG__NPY_UNSIGNED, 2}, {"u4", FG__NPY_UNSIGNED, 4},
-               {"u8", FG__NPY_UNSIGNED, 8}, {"b1", FG__NPY_BOOL, 1},
-               {"c8", FG__NPY_COMPLEX, 4},  {"c16", FG__NPY_COMPLEX, 8}};
+  } known[] = {{"f2", FG__TYPE_FLOAT32, 2}, {"f4", FG__TYPE_FLOAT32, 4},
+               {"f8", FG__TYPE_FLOAT64, 8}, {"i1", FG__TYPE_INT8, 1},
+               {"i2", FG__TYPE_INT16, 2},   {"i4", FG__TYPE_INT32, 4},
+               {"i8", FG__TYPE_INT64, 8},   {"u1", FG__TYPE_UINT8, 1},
+               {"u2", FG__TYPE_UINT16, 2},  {"u4", FG__TYPE_UINT32, 4},
+               {"u8", FG__TYPE_UINT64, 8},  {"b1", FG__TYPE_UINT8, 1},
+               {"c8", FG__TYPE_FLOAT32, 4}, {"c16", FG__TYPE_FLOAT64, 8}};
   const char order = *descr;
   if (!order || !strchr("<>|=", order))
     return false;
   out->swapped = order == (is_little() ? '>' : '<');
   for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcmp(known[i].type, descr + 1) == 0) {
-      out->kind = known[i].kind;
+    if (strcmp(known[i].name, descr + 1) == 0) {
+      out->type = known[i].type;
       out->item = known[i].item;
+      out->is_bool = descr[1] == 'b';
+      out->is_complex = descr[1] == 'c';
       return true;
     }
   return false;
@@ -135,13 +137,12 @@ static void find_strides(fg__npy_array *a, bool fortran)
     if (a->shape[k] != 1)
       a->shape[rank++] = a->shape[k];
   a->rank = rank;
-  size_t step = a->kind == FG__NPY_COMPLEX ? 2 : 1;
+  size_t step = a->is_complex ? 2 : 1;
   for (int n = 0; n < rank && n < FG__NPY_RANK; ++n) {
     const int k = fortran ? n : rank - 1 - n;
     a->stride[k] = step;
     step *= a->shape[k];
   }
-  a->count = step;
 }
 
 /* Finds where the dictionary lies; false where it is not all there. */
@@ -195,10 +196,10 @@ static bool read_dictionary(fg__npy_array *out, facts *f, reader *r)
 }
 
 static fg_status check_size(const fg__npy_array *a, fg_context *context, const char *path,
-                            size_t header, size_t all)
+                            size_t all)
 {
-  const size_t per = a->kind == FG__NPY_COMPLEX ? 2 * a->item : a->item;
-  const size_t bytes = all > header ? all - header : 0, there = bytes / per;
+  const size_t per = a->is_complex ? 2 * a->item : a->item;
+  const size_t bytes = all > a->header ? all - a->header : 0, there = bytes / per;
   size_t room = there, count = 1;
   bool fits = true;
   for (int k = 0; k < a->rank && k < FG__NPY_RANK && fits; ++k) {
@@ -220,14 +221,12 @@ static fg_status check_size(const fg__npy_array *a, fg_context *context, const c
   return FG_STATUS_OK;
 }
 
-fg_status fg__npy_header(fg__npy_array *out, size_t *header, fg_context *context,
-                         const char *path, const unsigned char *bytes, size_t size,
-                         size_t all)
+fg_status fg__npy_header(fg__npy_array *out, fg_context *context, const char *path,
+                         const unsigned char *bytes, size_t size, size_t all)
 {
   reader r;
   facts f = {{0}, false, false};
-  *header = 0;
-  if (!find_dictionary(&r, header, bytes, size) || !read_dictionary(out, &f, &r))
+  if (!find_dictionary(&r, &out->header, bytes, size) || !read_dictionary(out, &f, &r))
     return fg__fail(context, FG_STATUS_FILE_FORMAT,
                     "%s: array \"%s\" has a damaged header", path, out->name);
   if (f.structured || !find_type(out, f.descr))
@@ -239,7 +238,7 @@ fg_status fg__npy_header(fg__npy_array *out, size_t *header, fg_context *context
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: array \"%s\" has %d dimensions; at most %d can be read", path,
                     out->name, out->rank, FG__NPY_RANK);
-  fg_status status = check_size(out, context, path, *header, all);
+  fg_status status = check_size(out, context, path, all);
   if (status == FG_STATUS_OK)
     find_strides(out, f.fortran);
   return status;

@@ -8,26 +8,18 @@
 
 enum { FG__NPY_RANK = 4, FG__NPY_ARRAYS = 256, FG__NPY_NAME = 64 };
 
-typedef enum fg__npy_kind {
-  FG__NPY_FLOAT,
-  FG__NPY_SIGNED,
-  FG__NPY_UNSIGNED,
-  FG__NPY_BOOL,
-  FG__NPY_COMPLEX
-} fg__npy_kind;
-
 typedef struct fg__npy_array {
   char name[FG__NPY_NAME]; /* "": it holds no numbers */
-  fg__npy_kind kind;
-  size_t item; /* bytes of a number */
-  bool swapped;
+  fg__type type;           /* of numbers that have half precision FLOAT32 */
+  size_t item;             /* bytes of a number */
+  bool is_bool, is_complex, swapped;
   int rank;
   size_t shape[FG__NPY_RANK];
   size_t stride[FG__NPY_RANK]; /* in numbers */
-  size_t count;
-  const unsigned char *data; /* count * item bytes; NULL: not loaded yet */
-  unsigned char *owned;      /* those of a compressed entry */
-  size_t entry;              /* of the archive */
+  size_t header;               /* bytes before the first number */
+  const unsigned char *data;   /* the numbers; NULL: not loaded yet */
+  unsigned char *owned;        /* those of a compressed entry */
+  size_t entry;                /* of the archive */
 } fg__npy_array;
 
 /* zip.c. An entry of an archive, whose bytes are where they are said to be. */
@@ -55,11 +47,10 @@ fg_status fg__zip_extract(unsigned char *out, size_t size, size_t *got,
                           fg_context *context, const char *path,
                           const fg__zip_entry *entry);
 
-/* header.c. What the header of an array says: `size` bytes of `all` that the array has;
- * *header becomes its length. FILE_FORMAT, UNSUPPORTED (types, ranks). */
-fg_status fg__npy_header(fg__npy_array *out, size_t *header, fg_context *context,
-                         const char *path, const unsigned char *bytes, size_t size,
-                         size_t all);
+/* header.c. What the header of an array says: `size` bytes of `all` that the array has.
+ * FILE_FORMAT, UNSUPPORTED (types, ranks). */
+fg_status fg__npy_header(fg__npy_array *out, fg_context *context, const char *path,
+                         const unsigned char *bytes, size_t size, size_t all);
 
 /* Whether bytes are those of an array, of an archive of arrays. */
 bool fg__is_npy(const unsigned char *bytes, size_t size);

@@ -139,17 +139,6 @@ static const table_state *state_of(const fg__variable *v)
   return v->owner->file[v->file].state;
 }
 
-/* The field of a column, from 0, of a row. */
-static fg__table_field field_at(const table_state *s, const fg__table_line *line,
-                                int column)
-{
-  fg__table_field field = {"", 0};
-  size_t at = 0;
-  for (int c = 0; c <= column && fg__table_split(&field, line, &at, s->table.style); ++c)
-    ;
-  return field;
-}
-
 static fg_status fetch(const fg__variable *v, const size_t *start, const size_t *count,
                        double *out)
 {
@@ -157,7 +146,7 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
   const size_t columns = (size_t)s->table.columns;
   const misfit *bad = &s->misfit[v->id];
   if (bad->count > 0) {
-    const fg__table_field field = field_at(s, &bad->line, v->id);
+    const fg__table_field field = fg__table_field_at(&bad->line, s->table.style, v->id);
     return fg__fail(s->table.context, FG_STATUS_FILE_FORMAT,
                     "%s: line %d, column %d (%s): \"%.*s\" is no number", s->table.path,
                     bad->line.number, v->id + 1, v->name,
@@ -173,7 +162,8 @@ static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, 
 {
   const table_state *s = state_of(v);
   for (size_t n = 0; n < count; ++n) {
-    const fg__table_field field = field_at(s, &s->line[first + n], v->id);
+    const fg__table_field field =
+        fg__table_field_at(&s->line[first + n], s->table.style, v->id);
     snprintf(out + n * size, size, "%.*s", (int)(field.size < size ? field.size : size),
              field.text);
   }

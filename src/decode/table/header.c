@@ -112,63 +112,17 @@ static const char *find_word(const char *text, const char *end, const char *word
   return NULL;
 }
 
-static bool is_part(char c)
+/* A Tecplot file's header, up to the data; *found: it is one. */
+static fg_status read_tecplot(bool *found, fg__table *table, fg__table_cursor text)
 {
-  return c == ' ' || c == '\t' || c == ',' || c == '\n' || c == '\r';
-}
-
-/* The names behind VARIABLES =, quoted or not, up to the next word before a =. */
-static int read_variables(fg__table_column *out, int most, const char *at,
-                          const char *end)
-{
-  int count = 0;
-  while (at < end) {
-    while (at < end && is_part(*at))
-      ++at;
-    if (at >= end)
-      break;
-    const char *start = at, *stop;
-    if (*at == '"') {
-      start = ++at;
-      stop = memchr(at, '"', (size_t)(end - at));
-      at = stop ? stop + 1 : end;
-    } else {
-      while (at < end && !is_part(*at) && *at != '=')
-        ++at;
-      stop = at;
-      const char *next = at;
-      while (next < end && (*next == ' ' || *next == '\t'))
-        ++next;
-      const size_t length = (size_t)(stop - start);
-      if ((next < end && *next == '=') ||
-          (length == 4 && strncasecmp(start, "ZONE", 4) == 0) ||
-          (length == 14 && strncasecmp(start, "DATASETAUXDATA", 14) == 0))
-        break;
-    }
-    if (count < most)
-      fg__table_name(&out[count], start, (size_t)((stop ? stop : end) - start));
-    ++count;
-  }
-  return count;
-}
-
-/* A Tecplot file's header, up to `end`; *found: it is one. */
-static fg_status read_tecplot(bool *found, fg__table *table, const char *text,
-                              const char *end)
-{
-  const char *variables = find_word(text, end, "VARIABLES");
-  const char *at = variables ? variables + strlen("VARIABLES") : end;
-  while (at < end && is_part(*at))
-    ++at;
-  *found = at < end && *at == '=';
-  if (!*found)
-    return FG_STATUS_OK;
-  const int count = read_variables(table->column, table->columns, at + 1, end);
-  if (count != table->columns)
+  text.size = table->data.at;
+  const int count = fg__tecplot_header(table->column, table->columns, text);
+  *found = count >= 0;
+  if (*found && count != table->columns)
     return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
                     "%s: %d variables in the header, and %d columns in line %d",
                     table->path, count, table->columns, table->data.line + 1);
-  table->named = true;
+  table->named = table->named || *found;
   return FG_STATUS_OK;
 }
 
@@ -298,7 +252,7 @@ fg_status fg__table_find_names(fg__table *table, const fg__source *source)
   bool found = false;
   fg_status status = FG_STATUS_OK;
   if (end > text)
-    status = read_tecplot(&found, table, text, end);
+    status = read_tecplot(&found, table, cursor);
   if (status != FG_STATUS_OK || found || (end > text && read_davis(table, text, end)))
     return status;
   while (cursor.at < table->data.at && fg__table_next(&next, &cursor)) {

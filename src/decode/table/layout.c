@@ -24,17 +24,33 @@ typedef struct fit {
   double numbers;
 } fit;
 
-/* Counts fields and how many are numbers; fields past `most` are not looked at. */
-static int count_fields(int *numbers, const fg__table_line *line, fg__table_style style)
+/* What the fields of a line are; those past the bound are not looked at. */
+typedef struct kinds {
+  int fields, numbers, missing;
+  fg__table_value of[FG__TABLE_COLUMNS + 1];
+} kinds;
+
+static void find_kinds(kinds *out, const fg__table_line *line, fg__table_style style,
+                       int most)
 {
   fg__table_field field;
   double value;
-  int count = 0;
-  *numbers = 0;
-  for (size_t at = 0;
-       count <= FG__TABLE_COLUMNS && fg__table_split(&field, line, &at, style); ++count)
-    *numbers += fg__table_number(&value, &field, style.decimal) == FG__TABLE_NUMBER_VALUE;
-  return count;
+  out->fields = out->numbers = out->missing = 0;
+  for (size_t at = 0; out->fields <= most && fg__table_split(&field, line, &at, style);) {
+    const fg__table_value kind = fg__table_number(&value, &field, style.decimal);
+    out->numbers += kind == FG__TABLE_NUMBER_VALUE;
+    out->missing += kind == FG__TABLE_MISSING;
+    out->of[out->fields++] = kind;
+  }
+}
+
+/* Counts fields and how many are numbers. */
+static int count_fields(int *numbers, const fg__table_line *line, fg__table_style style)
+{
+  kinds found;
+  find_kinds(&found, line, style, FG__TABLE_COLUMNS);
+  *numbers = found.numbers;
+  return found.fields;
 }
 
 static int by_size(const void *a, const void *b)
@@ -82,18 +98,12 @@ static int collect(fg__table_line line[LOOKED_AT], const fg__source *source)
 static bool is_data(const fg__table *table, const fg__table_line *line,
                     const bool *is_number)
 {
-  fg__table_field field;
-  int count = 0, numbers = 0;
-  for (size_t at = 0;
-       count <= table->columns && fg__table_split(&field, line, &at, table->style);
-       ++count) {
-    double value;
-    const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
-    numbers += kind == FG__TABLE_NUMBER_VALUE;
-    if (count < table->columns && is_number[count] && kind == FG__TABLE_NO_NUMBER)
+  kinds found;
+  find_kinds(&found, line, table->style, table->columns);
+  for (int c = 0; c < table->columns && c < found.fields; ++c)
+    if (is_number[c] && found.of[c] == FG__TABLE_NO_NUMBER)
       return false;
-  }
-  return count == table->columns && numbers > 0;
+  return found.fields == table->columns && found.numbers > 0;
 }
 
 /* Columns that have a number in one of the lines, and a number or none in all. */
@@ -101,16 +111,12 @@ static void find_numbers(bool *is_number, const fg__table *table,
                          const fg__table_line *lines, int count)
 {
   bool is_text[FG__TABLE_COLUMNS] = {false};
+  kinds found;
   for (int i = 0; i < count; ++i) {
-    fg__table_field field;
-    size_t at = 0;
-    for (int c = 0;
-         c < table->columns && fg__table_split(&field, &lines[i], &at, table->style);
-         ++c) {
-      double value;
-      const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
-      is_number[c] = is_number[c] || kind == FG__TABLE_NUMBER_VALUE;
-      is_text[c] = is_text[c] || kind == FG__TABLE_NO_NUMBER;
+    find_kinds(&found, &lines[i], table->style, table->columns);
+    for (int c = 0; c < table->columns && c < found.fields; ++c) {
+      is_number[c] = is_number[c] || found.of[c] == FG__TABLE_NUMBER_VALUE;
+      is_text[c] = is_text[c] || found.of[c] == FG__TABLE_NO_NUMBER;
     }
   }
   for (int c = 0; c < table->columns; ++c)
@@ -122,20 +128,13 @@ static void find_numbers(bool *is_number, const fg__table *table,
 static bool has_points(const fg__table *table, const fg__table_line *lines, int count)
 {
   int rows = 0, points = 0;
+  kinds found;
   for (int i = 0; i < count; ++i) {
-    fg__table_field field;
-    int fields = 0, numbers = 0, missing = 0;
-    for (size_t at = 0; fields <= table->columns &&
-                        fg__table_split(&field, &lines[i], &at, table->style);
-         ++fields) {
-      double value;
-      const fg__table_value kind = fg__table_number(&value, &field, table->style.decimal);
-      numbers += kind == FG__TABLE_NUMBER_VALUE;
-      missing += kind == FG__TABLE_MISSING;
-    }
-    rows += fields == table->columns;
+    find_kinds(&found, &lines[i], table->style, table->columns);
+    const bool is_row = found.fields == table->columns;
+    rows += is_row;
     /* a damaged one is told by its place */
-    points += fields == table->columns && numbers >= 2 && numbers + missing >= LEAST - 1;
+    points += is_row && found.numbers >= 2 && found.numbers + found.missing >= LEAST - 1;
   }
   return 2 * points >= rows;
 }
@@ -173,17 +172,6 @@ static int style_of_row(const fg__table_line *names, const fg__table_line *row,
     }
   }
   return best;
-}
-
-/* The field of that number, from 0. */
-static fg__table_field field_at(const fg__table_line *line, fg__table_style style,
-                                int column)
-{
-  fg__table_field field = {"", 0};
-  size_t at = 0;
-  for (int c = 0; c <= column && fg__table_split(&field, line, &at, style); ++c)
-    ;
-  return field;
 }
 
 /* The column of a row whose text is no number: nearly one, or the first; -1: none. */
@@ -230,8 +218,8 @@ static bool fail_row(const fg__table *table, const fg__table_line *names,
   const int column = style < 0 ? -1 : find_no_number(&row, STYLES[style]);
   if (column < 0)
     return false;
-  const fg__table_field name = field_at(names, STYLES[style], column),
-                        field = field_at(&row, STYLES[style], column);
+  const fg__table_field name = fg__table_field_at(names, STYLES[style], column),
+                        field = fg__table_field_at(&row, STYLES[style], column);
   fg__fail(table->context, FG_STATUS_FILE_FORMAT,
            "%s: is text, but no table of points: line %d, column %d (%.*s): \"%.*s\" is "
            "no number",

@@ -109,6 +109,16 @@ bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t 
   return true;
 }
 
+fg__table_field fg__table_field_at(const fg__table_line *line, fg__table_style style,
+                                   int column)
+{
+  fg__table_field field = {"", 0};
+  size_t at = 0;
+  for (int c = 0; c <= column && fg__table_split(&field, line, &at, style); ++c)
+    ;
+  return field;
+}
+
 static bool is_missing(const fg__table_field *field)
 {
   static const char *const words[] = {

@@ -58,6 +58,10 @@ bool fg__table_is_comment(const fg__table_line *line);
 bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t *at,
                      fg__table_style style);
 
+/* The field of a column, from 0. */
+fg__table_field fg__table_field_at(const fg__table_line *line, fg__table_style style,
+                                   int column);
+
 /* Reads a field as a number; NaN when it is missing or none. Needs the locale of
  * fg__number_locale_begin. */
 fg__table_value fg__table_number(double *out, const fg__table_field *field, char decimal);
@@ -94,6 +98,10 @@ void fg__table_name(fg__table_column *column, const char *text, size_t size);
 /* tecplot.c. Whether a text is Tecplot's and has several zones, one of a time, of cells,
  * or packed by variables. */
 bool fg__has_zones(const fg__source *source);
+
+/* Names of at most `most` columns behind VARIABLES = in a text; returns how many it has;
+ * -1: it has no such word. */
+int fg__tecplot_header(fg__table_column *out, int most, fg__table_cursor text);
 
 /* Adds such a file to a dataset. FILE_FORMAT, UNSUPPORTED (other cells, shared
  * variables), MEMORY. */

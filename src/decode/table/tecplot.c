@@ -21,9 +21,8 @@ static fg_status fail(const fg__tecplot *r, const char *what, const char *word)
 }
 
 /* Skips what parts words, and comments. */
-static void skip(fg__tecplot *r)
+static void skip(fg__table_cursor *t)
 {
-  fg__table_cursor *t = &r->text;
   while (t->at < t->size) {
     const char c = t->text[t->at];
     if (c == '#')
@@ -37,11 +36,10 @@ static void skip(fg__tecplot *r)
 }
 
 /* The next word, a text in quotes or a list in brackets, without these; "" at the end. */
-static void next_word(fg__tecplot *r, char out[FG__TECPLOT_WORD])
+static void next_word(fg__table_cursor *t, char out[FG__TECPLOT_WORD])
 {
-  fg__table_cursor *t = &r->text;
   size_t n = 0;
-  skip(r);
+  skip(t);
   const char first = t->at < t->size ? t->text[t->at] : ' ';
   const char end = first == '"' ? '"' : first == '(' ? ')' : '\0';
   int depth = first == '(';
@@ -60,9 +58,8 @@ static void next_word(fg__tecplot *r, char out[FG__TECPLOT_WORD])
 }
 
 /* Whether a = is next, which is passed over. */
-static bool take_equals(fg__tecplot *r)
+static bool take_equals(fg__table_cursor *t)
 {
-  fg__table_cursor *t = &r->text;
   size_t at = t->at;
   while (at < t->size && strchr(" \t\r\n", t->text[at]))
     ++at;
@@ -73,30 +70,42 @@ static bool take_equals(fg__tecplot *r)
   return true;
 }
 
-static bool begins_number(const fg__tecplot *r)
+static bool begins_number(const fg__table_cursor *t)
 {
-  const fg__table_cursor *t = &r->text;
   return t->at < t->size && strchr("+-.0123456789", t->text[t->at]) != NULL;
 }
 
-/* The names behind VARIABLES =, up to the next word before a =, or ZONE. */
-static void read_variables(fg__tecplot *r)
+/* The names behind VARIABLES =, up to the next word before a =, ZONE or DATASETAUXDATA;
+ * returns how many. */
+static int read_variables(fg__table_column *out, int most, fg__table_cursor *text)
 {
-  for (;;) {
-    skip(r);
-    const fg__table_cursor before = r->text;
+  for (int count = 0;; ++count) {
+    skip(text);
+    const fg__table_cursor before = *text;
     const bool quoted = before.at < before.size && before.text[before.at] == '"';
     char name[FG__TECPLOT_WORD];
-    next_word(r, name);
-    fg__table_cursor after = r->text;
-    if (!quoted && (!name[0] || fg__is_same(name, "zone") || take_equals(r))) {
-      r->text = before;
-      return;
+    next_word(text, name);
+    fg__table_cursor behind = *text;
+    if (!quoted && (!name[0] || fg__is_same(name, "zone") ||
+                    fg__is_same(name, "datasetauxdata") || take_equals(&behind))) {
+      *text = before;
+      return count;
     }
-    r->text = after;
-    if (r->variables < FG__TECPLOT_VARIABLES)
-      fg__table_name(&r->column[r->variables++], name, strlen(name));
+    if (count < most)
+      fg__table_name(&out[count], name, strlen(name));
   }
+}
+
+int fg__tecplot_header(fg__table_column *out, int most, fg__table_cursor text)
+{
+  static const char word[] = "variables";
+  for (; text.at + sizeof word <= text.size; ++text.at) {
+    fg__table_cursor behind = text;
+    behind.at += sizeof word - 1;
+    if (fg__is_word(text.text + text.at, sizeof word - 1, word))
+      return take_equals(&behind) ? read_variables(out, most, &behind) : -1;
+  }
+  return -1;
 }
 
 static const struct {
@@ -177,14 +186,15 @@ static fg_status read_header(fg__tecplot *r, fg__zone *z)
 {
   fg_status status = FG_STATUS_OK;
   *z = (fg__zone){.size = {1, 1, 1}, .time = (double)NAN, .line = r->text.line + 1};
-  for (skip(r); status == FG_STATUS_OK && !begins_number(r); skip(r)) {
+  for (skip(&r->text); status == FG_STATUS_OK && !begins_number(&r->text);
+       skip(&r->text)) {
     char key[FG__TECPLOT_WORD], value[FG__TECPLOT_WORD];
-    next_word(r, key);
+    next_word(&r->text, key);
     if (fg__is_same(key, "auxdata"))
-      next_word(r, key);
-    if (!key[0] || !take_equals(r))
+      next_word(&r->text, key);
+    if (!key[0] || !take_equals(&r->text))
       return fail(r, "is no keyword of a zone: ", key);
-    next_word(r, value);
+    next_word(&r->text, value);
     status = set_keyword(r, z, key, value);
   }
   const double samples = (double)z->size[0] * (double)z->size[1] * (double)z->size[2];
@@ -206,7 +216,7 @@ static fg_status next_number(fg__tecplot *r, double *out, size_t *times)
     --*times;
     return FG_STATUS_OK;
   }
-  next_word(r, word);
+  next_word(&r->text, word);
   char *star = strchr(word, '*');
   if (star) {
     *times = strtoul(word, NULL, 10);
@@ -282,10 +292,12 @@ static fg_status read_zones(fg__tecplot *r)
 {
   fg_status status = FG_STATUS_OK;
   char word[FG__TECPLOT_WORD];
-  for (next_word(r, word); word[0] && status == FG_STATUS_OK; next_word(r, word)) {
+  for (next_word(&r->text, word); word[0] && status == FG_STATUS_OK;
+       next_word(&r->text, word)) {
     if (fg__is_same(word, "variables") && r->variables == 0) {
-      take_equals(r);
-      read_variables(r);
+      take_equals(&r->text);
+      const int count = read_variables(r->column, FG__TECPLOT_VARIABLES, &r->text);
+      r->variables = count < FG__TECPLOT_VARIABLES ? count : FG__TECPLOT_VARIABLES;
     } else if (fg__is_same(word, "zone")) {
       void *zones = r->zone;
       if (r->variables < 2 || r->zones == MOST_ZONES || r->text.size > INT_MAX)
@@ -299,8 +311,8 @@ static fg_status read_zones(fg__tecplot *r)
         status = read_values(r, z);
       if (status == FG_STATUS_OK)
         status = read_cells(r, z);
-    } else if (take_equals(r)) { /* TITLE and the like */
-      next_word(r, word);
+    } else if (take_equals(&r->text)) { /* TITLE and the like */
+      next_word(&r->text, word);
     }
   }
   return status == FG_STATUS_OK && r->zones == 0 ? fail(r, "has no zone", "") : status;

@@ -20,6 +20,7 @@ typedef struct cell_list {
   numbers faces, face_ends; /* of polyhedra, none else */
   size_t at, end;           /* of the cell's among the corners */
   size_t face_at;           /* where those of the next one begin */
+  size_t per_cell;          /* corners, where each cell has as many */
   size_t first_end; /* in `ends`: 1 where these begin with the first cell's beginning */
 } cell_list;
 
@@ -33,7 +34,9 @@ static fg_status next_cell(cell_list *t, const fg__vtk *vtk, size_t cell)
 {
   double end = -1.0;
   t->at = t->end;
-  if (t->ends.of) {
+  if (t->per_cell > 0) {
+    end = (double)(t->at + t->per_cell);
+  } else if (t->ends.of) {
     end = t->ends.of[cell + t->first_end];
   } else if (t->at < t->corners.count) {
     end = t->corners.of[t->at++];
@@ -218,7 +221,8 @@ static fg_status read_list(fg__dataset *data, const fg__vtk *file,
                            const fg__vtk_list *list, const fg__piece_points *points,
                            size_t *room)
 {
-  cell_list t = {.first_end = list->end_numbers > list->cells ? 1 : 0};
+  cell_list t = {.per_cell = list->per_cell,
+                 .first_end = list->end_numbers > list->cells ? 1 : 0};
   size_t corners = 0;
   fg_status status = FG_STATUS_OK;
   if (list->types != FG__VTK_NONE)

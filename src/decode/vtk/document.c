@@ -33,6 +33,20 @@ char *fg__vtk_copy_of(fg__vtk *vtk, xmlChar *value)
   return copy;
 }
 
+char *fg__vtk_content(fg__vtk *vtk, const xmlNode *node)
+{
+  char *text = fg__vtk_copy_of(vtk, xmlNodeGetContent(node));
+  const size_t first = text ? strspn(text, " \t\r\n") : 0;
+  size_t length = text ? strlen(text + first) : 0;
+  while (length > 0 && strchr(" \t\r\n", text[first + length - 1]))
+    --length;
+  if (text) {
+    memmove(text, text + first, length);
+    text[length] = '\0';
+  }
+  return text;
+}
+
 /* Copy of an attribute; NULL when it is not there. End with free. */
 char *fg__vtk_attribute(fg__vtk *vtk, const xmlNode *node, const char *name)
 {

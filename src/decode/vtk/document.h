@@ -15,6 +15,9 @@ const xmlNode *fg__vtk_child(const xmlNode *parent, const char *name);
  * is set. End with free. */
 char *fg__vtk_copy_of(fg__vtk *vtk, xmlChar *value);
 
+/* A copy of what an element holds, without blanks at its ends; end with free. */
+char *fg__vtk_content(fg__vtk *vtk, const xmlNode *node);
+
 /* Copy of an attribute; NULL when it is not there. End with free. */
 char *fg__vtk_attribute(fg__vtk *vtk, const xmlNode *node, const char *name);
 bool fg__vtk_attribute_is(fg__vtk *vtk, const xmlNode *node, const char *name,

@@ -77,7 +77,7 @@ static fg_status keep(fg__vtk *vtk, size_t piece, const fg__vtk_array *array,
 {
   fg__vtk_values *kept = &vtk->kept;
   const size_t components = (size_t)array->components;
-  const bool text = array->storage == FG__VTK_ASCII || array->storage == FG__VTK_TOKENS;
+  const bool whole = fg__vtk_is_read_whole(array);
   if (vtk->kept_of == array && kept->first <= first * components &&
       kept->first + kept->count >= end * components)
     return FG_STATUS_OK;
@@ -85,7 +85,7 @@ static fg_status keep(fg__vtk *vtk, size_t piece, const fg__vtk_array *array,
   vtk->kept_of = NULL;
   const fg_status status =
       fg__vtk_values_create_some(kept, fg__vtk_home(vtk, piece), array, tuples,
-                                 text ? 0 : first, text ? tuples : end);
+                                 whole ? 0 : first, whole ? tuples : end);
   if (status == FG_STATUS_OK)
     vtk->kept_of = array;
   return status;

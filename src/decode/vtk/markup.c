@@ -110,14 +110,22 @@ static fg_status check_tags(const fg__vtk *vtk, const unsigned char *bytes, size
   return FG_STATUS_OK;
 }
 
-/* VTK files have no document type, and without one there are no entities to expand. */
-static void refuse_document_type(void *parser, const xmlChar *name,
+/* VTK files have no document type; XDMF's may, of which nothing is taken. Without one
+ * there are no entities to expand. */
+static void ignore_document_type(void *parser, const xmlChar *name,
                                  const xmlChar *external, const xmlChar *system)
 {
   (void)name;
   (void)external;
   (void)system;
+  (void)parser;
+}
+
+static void refuse_document_type(void *parser, const xmlChar *name,
+                                 const xmlChar *external, const xmlChar *system)
+{
   xmlParserCtxt *context = parser;
+  ignore_document_type(parser, name, external, system);
   *(bool *)context->_private = true;
   xmlStopParser(context);
 }
@@ -133,7 +141,8 @@ static fg_status parse(fg__vtk *vtk, const char *markup, size_t size)
     return fg__fail_memory(vtk->context, "an XML parser", sizeof *parser);
   bool has_document_type = false;
   parser->_private = &has_document_type;
-  parser->sax->internalSubset = refuse_document_type;
+  parser->sax->internalSubset =
+      vtk->may_have_document_type ? ignore_document_type : refuse_document_type;
   int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING;
   /* libxml2 takes a longer text for an attack unless it is told to expect one; inline
    * data may be one, and the memory it takes is the file's size */

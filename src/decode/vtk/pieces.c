@@ -57,25 +57,12 @@ static bool find_text(fg__vtk_array *array, const xmlNode *node)
   return true;
 }
 
-static void trim(char *text)
-{
-  size_t start = strspn(text, " \t\r\n"), length = strlen(text + start);
-  while (length > 0 && strchr(" \t\r\n", text[start + length - 1]))
-    --length;
-  memmove(text, text + start, length);
-  text[length] = '\0';
-}
-
 static char *find_units(fg__vtk *vtk, const xmlNode *node)
 {
   for (const xmlNode *child = node->children; child; child = child->next)
     if (fg__vtk_is_element(child, "InformationKey") &&
-        fg__vtk_attribute_is(vtk, child, "name", "UNITS_LABEL")) {
-      char *units = fg__vtk_copy_of(vtk, xmlNodeGetContent(child));
-      if (units)
-        trim(units);
-      return units;
-    }
+        fg__vtk_attribute_is(vtk, child, "name", "UNITS_LABEL"))
+      return fg__vtk_content(vtk, child);
   return NULL;
 }
 

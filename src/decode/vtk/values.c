@@ -231,6 +231,18 @@ static bool is_text(const fg__vtk_array *array)
   return array->storage == FG__VTK_ASCII || array->storage == FG__VTK_TOKENS;
 }
 
+bool fg__vtk_is_read_whole(const fg__vtk_array *array)
+{
+  return array->storage == FG__VTK_HELD ? array->is_read_whole : is_text(array);
+}
+
+/* The type that an array's numbers have once they are read. */
+static fg__type type_in_memory(const fg__vtk_array *array)
+{
+  return is_text(array) || array->storage == FG__VTK_HELD ? FG__TYPE_FLOAT64
+                                                          : array->type;
+}
+
 fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
                                size_t tuples, size_t *stored)
 {
@@ -247,6 +259,15 @@ fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
                       "characters",
                       vtk->path, array->name, count, array->text_size);
     return FG_STATUS_OK;
+  }
+  if (array->storage == FG__VTK_HELD) {
+    *stored = 0; /* its size is that of what it is in, which is checked there */
+    return count <= array->text_size
+               ? FG_STATUS_OK
+               : fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                          "%s: array \"%.100s\" has %zu numbers where its grid needs "
+                          "%zu",
+                          vtk->path, array->name, array->text_size, count);
   }
   if (array->storage == FG__VTK_RAW) {
     *stored = array->text_size;
@@ -390,13 +411,15 @@ fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
   const size_t components = (size_t)array->components, all = tuples * components;
   out->first = first * components;
   out->count = (end - first) * components;
-  out->type = is_text(array) ? FG__TYPE_FLOAT64 : array->type;
+  out->type = type_in_memory(array);
   size_t size = fg__type_bytes(out->type);
   out->bytes = fg__allocate(out->count, size);
   if (!out->bytes)
     return fg__fail_memory(vtk->context, "an array of the file", out->count * size);
-  status = is_text(array) ? fg__vtk_values_from_text(out, vtk, array, all)
-                          : read_binary(out, vtk, array, all);
+  status = array->storage == FG__VTK_HELD ? array->read((double *)(void *)out->bytes, vtk,
+                                                        array, out->first, out->count)
+           : is_text(array)               ? fg__vtk_values_from_text(out, vtk, array, all)
+                                          : read_binary(out, vtk, array, all);
   if (status != FG_STATUS_OK)
     fg__vtk_values_clear(out);
   return status;

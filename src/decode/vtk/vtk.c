@@ -93,6 +93,8 @@ void fg__vtk_close(fg__vtk *vtk)
   }
   free(vtk->files);
   fg__vtk_values_clear(&vtk->kept);
+  if (vtk->held)
+    vtk->close_held(vtk->held);
   if (vtk->document)
     xmlFreeDoc(vtk->document);
   *vtk = (fg__vtk){0};

@@ -22,7 +22,8 @@ typedef enum fg__vtk_storage {
   FG__VTK_INLINE,
   FG__VTK_APPENDED,
   FG__VTK_TOKENS, /* a legacy file's text, not ended by a NUL */
-  FG__VTK_RAW     /* a legacy file's bytes */
+  FG__VTK_RAW,    /* a legacy file's bytes, or numbers that were made */
+  FG__VTK_HELD    /* elsewhere: `read` of the array reads them */
 } fg__vtk_storage;
 
 typedef enum fg__vtk_compression {
@@ -31,6 +32,8 @@ typedef enum fg__vtk_compression {
   FG__VTK_LZ4,
   FG__VTK_OTHER_COMPRESSION
 } fg__vtk_compression;
+
+struct fg__vtk;
 
 /* A DataArray element, or an array of a legacy file. */
 typedef struct fg__vtk_array {
@@ -43,9 +46,14 @@ typedef struct fg__vtk_array {
   bool no_velocity; /* the file says that it is something else: normals, colours */
   const char *text; /* ascii, inline: what the element holds, ended by a NUL; tokens, raw:
                        where it lies in the file */
-  size_t text_size;
+  size_t text_size; /* held: how many numbers there are from `offset` on */
   char *joined_text; /* owned, when text lay in several parts; else NULL */
-  size_t offset;     /* appended: where it begins */
+  size_t offset;     /* appended, held: where it begins */
+  /* held: reads numbers [first, first + count); what of is `item` */
+  fg_status (*read)(double *out, const struct fg__vtk *vtk,
+                    const struct fg__vtk_array *array, size_t first, size_t count);
+  const void *item;
+  bool is_read_whole; /* held: a part takes as long as all */
 } fg__vtk_array;
 
 /* Cells that a file lists: each by its points. */
@@ -57,6 +65,7 @@ typedef struct fg__vtk_list {
   size_t corner_numbers, end_numbers; /* of these arrays; 0: as the last end says, as
                                          many as cells */
   int type;                           /* VTK's number of the one type */
+  size_t per_cell;                    /* corners of each cell; 0: as above */
   size_t faces, face_ends;            /* of polyhedra; NONE: not there */
   size_t apart[4]; /* the same from VTK 9.4 on: the faces' points, where each face ends,
                       the polyhedra's faces, where each cell ends */
@@ -98,7 +107,8 @@ typedef struct fg__vtk {
   const char *path;
   size_t file_size;
   void *document; /* libxml2's tree, which texts point into; NULL: a legacy file */
-  bool swap;      /* the file's byte order is not this machine's */
+  bool may_have_document_type; /* before it is parsed */
+  bool swap;                   /* the file's byte order is not this machine's */
   size_t header_bytes;
   fg__vtk_compression compression;
   char *compressor;
@@ -119,6 +129,8 @@ typedef struct fg__vtk {
   fg__vtk_array *arrays;
   size_t array_count, array_capacity; /* FieldData's first, then the pieces' */
   size_t field_array_count;
+  void *held; /* what its held arrays are in, and the end of that */
+  void (*close_held)(void *held);
   struct fg__vtk_file *files; /* that this one names, and whose pieces it has */
   size_t file_count, file_capacity;
   char *vectors[2]; /* the Vectors attribute of the points' and of the cells' data */
@@ -216,6 +228,9 @@ fg_status fg__vtk_check_pieces(const fg__vtk *vtk);
  * promises against what there is. *stored becomes the bytes they take in the file. */
 fg_status fg__vtk_values_check(const fg__vtk *vtk, const fg__vtk_array *array,
                                size_t tuples, size_t *stored);
+
+/* Whether reading a part of an array takes as long as reading all: of text. */
+bool fg__vtk_is_read_whole(const fg__vtk_array *array);
 
 /* How many numbers a binary array has by its own account. */
 fg_status fg__vtk_values_count(size_t *out, const fg__vtk *vtk,

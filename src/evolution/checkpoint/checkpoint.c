@@ -418,6 +418,8 @@ static fg_status load(fg_evolution *e, counts *counted, const fg__checkpoint_fil
     status = fg__checkpoint_check(file, e->context, e->ranks);
   for (int n = 0; !status && n < FG__STATE_ARRAYS; ++n)
     fg__state_fill_ghosts(&arrays[n]);
+  if (!status && e->coarsenings > 0)
+    fg__stepper_hold_means(&e->stepper);
   return status;
 }
 
@@ -438,7 +440,7 @@ fg_status fg_evolution_resume(fg_evolution *evolution, fg_step *step,
   /* another field's mesh may not be one to be coarsened */
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_origin(e, checkpoint));
   for (int n = coarsenings_of(checkpoint) - e->coarsenings; !status && n > 0; --n)
-    status = fg_evolution_coarsen(e, step);
+    status = fg__evolution_coarsen_mesh(e);
   e->has_coarsening = false;
   if (!status)
     status = load(e, &counted, &checkpoint->file);

@@ -25,6 +25,7 @@ struct fg__curvilinear {
   fg__curvilinear_part centre;  /* its variable is the longitude of the centres; NULL:
                           centres are  mid-points of a component's samples */
   fg__curvilinear_part part[2]; /* the components */
+  fg__curvilinear_part at;      /* whose dimensions the centres have */
   size_t size[2];               /* centres along i and j */
   size_t left_out; /* cells between them that lie over gaps, once it is read */
   int shift[2];    /* component k along its own direction: sample 0 lies on centre 0,

@@ -173,7 +173,7 @@ bool fg__curvilinear_parts(fg__curvilinear *mesh, const fg__dataset *data,
  * values. */
 static void find_mask(fg__curvilinear *mesh, const fg__dataset *data)
 {
-  const fg__curvilinear_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  const fg__curvilinear_part *at = &mesh->at;
   for (int n = 0; fg__mask_names[n] && !mesh->mask; ++n) {
     const fg__variable *v = fg__dataset_find(data, fg__mask_names[n]);
     if (v && strcmp(v->plain_name, fg__mask_names[n]) == 0 &&
@@ -244,6 +244,9 @@ static fg_status recognise(fg__curvilinear *mesh, fg__grid *grid, const fg__data
     fg__refuse_apart(grid, pair);
   if (status != FG_STATUS_OK || !*found)
     return status;
+  mesh->at = mesh->centre.variable ? mesh->centre : mesh->part[0];
+  if (mesh->at.grid.axis[0].size != mesh->size[0])
+    mesh->at.grid.axis[0] = mesh->part[1].grid.axis[0];
   grid->unusable[0] = grid->hint[0] = '\0';
   check_storage(grid, data, mesh);
   find_mask(mesh, data);

@@ -15,7 +15,7 @@ static bool starts_with(const char *text, const char *start)
 static const fg__variable *find_on(const fg__curvilinear *mesh, const fg__dataset *data,
                                    const char *name)
 {
-  const fg__curvilinear_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  const fg__curvilinear_part *at = &mesh->at;
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     if (strcmp(v->plain_name, name) == 0 && fg__lies_on(data, v, &at->grid, at->variable))
@@ -104,7 +104,7 @@ bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,
   const fg__term u = fg__term_of(pair->component[0]), v = fg__term_of(pair->component[1]);
   if (wanted != FG_FRAME_AUTO || pair->polar.sense != 0)
     return wanted == FG_FRAME_GRID;
-  fg__curvilinear mesh = {.part = {{.variable = pair->component[0], .grid = *grid}}};
+  fg__curvilinear mesh = {.at = {.variable = pair->component[0], .grid = *grid}};
   find_angle(&mesh, data);
   const fg__frame_evidence evidence = {.angle = mesh.turn != FG__TURN_NONE};
   return fg__frame_of_terms(why, sizeof why, &u, &v, &evidence) < 0;

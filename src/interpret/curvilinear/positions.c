@@ -255,12 +255,17 @@ static double apart(const lattice *u, const lattice *v)
   return steps > 0.0 ? sum / steps : HUGE_VAL;
 }
 
-/* Without positions of centres: they are mid-points of u's samples and of v's. */
+/* Without positions of centres: they are mid-points of u's samples and of v's. A
+ * component that has one more than they along its own direction begins before them. */
 static void shift_by_both(bool *found, fg__curvilinear *mesh, const lattice of[2])
 {
-  if (of[0].size[0] != of[1].size[0] || of[0].size[1] != of[1].size[1])
-    return;
-  if (apart(&of[0], &of[1]) < SAME_PLACE) {
+  bool more[2]; /* faces on both sides of each centre */
+  for (int k = 0; k < 2; ++k) {
+    more[k] = of[k].size[k] > mesh->size[k];
+    if (of[k].size[k] < mesh->size[k])
+      return;
+  }
+  if (!more[0] && !more[1] && apart(&of[0], &of[1]) < SAME_PLACE) {
     mesh->shift[0] = mesh->shift[1] = 0;
     *found = true;
     return;
@@ -269,7 +274,7 @@ static void shift_by_both(bool *found, fg__curvilinear *mesh, const lattice of[2
   for (int n = 0; n < 4; ++n) {
     const int side[2] = {n & 1 ? 1 : -1, n & 2 ? 1 : -1};
     const misfit off = misfit_between(&of[0], &of[1], side);
-    if (mean_of(&off) >= least)
+    if (mean_of(&off) >= least || (more[0] && side[0] < 0) || (more[1] && side[1] < 0))
       continue;
     least = mean_of(&off);
     mesh->apart = is_far(&off);
@@ -408,23 +413,23 @@ static void half_way_in_row(double out[3], const double *row, size_t i, size_t c
                                        : (double)NAN;
 }
 
-/* Mid-points of u's samples. */
+/* Mid-points of u's samples, of which there may be one more along each row. */
 static fg_status centres_between(fg__positions *out, const fg__dataset *data,
                                  const fg__curvilinear *mesh)
 {
-  const size_t columns = mesh->size[0];
+  const size_t columns = mesh->size[0], faces = mesh->part[0].grid.axis[0].size;
   fg_status status = fg__positions_read(out, data, &mesh->part[0], 0);
   if (status != FG_STATUS_OK)
     return status;
-  double *row = fg__allocate(columns, 3 * sizeof *row);
+  double *row = fg__allocate(faces, 3 * sizeof *row);
   if (!row)
-    return fg__fail_memory(data->context, "a row's positions", columns * 3 * sizeof *row);
+    return fg__fail_memory(data->context, "a row's positions", faces * 3 * sizeof *row);
   for (size_t j = 0; j < mesh->size[1]; ++j) {
-    for (size_t i = 0; i < columns; ++i)
-      fg__unit_vector(row + 3 * i, out, j * columns + i);
+    for (size_t i = 0; i < faces; ++i)
+      fg__unit_vector(row + 3 * i, out, j * faces + i);
     for (size_t i = 0; i < columns; ++i) {
       double at[3];
-      half_way_in_row(at, row, i, columns, -mesh->shift[0]);
+      half_way_in_row(at, row, i, faces, -mesh->shift[0]);
       out->longitude[j * columns + i] = atan2(at[1], at[0]) / FG__RADIANS;
       out->latitude[j * columns + i] = atan2(at[2], hypot(at[0], at[1])) / FG__RADIANS;
     }

@@ -128,19 +128,6 @@ bool fg__find_healpix(fg__unstructured *out, fg__mesh_search *search)
   return true;
 }
 
-/* Whether a variable lies along the vectors' dimension; or, of trajectories, along both
- * of theirs. */
-static bool lies_along(const fg__mesh_search *search, const fg__variable *v, int rank)
-{
-  const fg__variable *u = search->u;
-  const int first = search->k - rank + 1;
-  for (int k = 0; k < rank; ++k)
-    if (v->rank != rank ||
-        !fg__same_dimension(search->data, v->dimension[k], u->dimension[first + k]))
-      return false;
-  return fg__is_array(v);
-}
-
 /* Longitude and latitude along a dimension, or two: those that the variable names, else
  * the file's first. */
 static bool find_positions(const fg__variable *out[2], const fg__mesh_search *search,
@@ -152,7 +139,7 @@ static bool find_positions(const fg__variable *out[2], const fg__mesh_search *se
     out[0] = out[1] = NULL;
     for (size_t n = 0; n < search->data->variable_count; ++n) {
       const fg__variable *v = &search->data->variables[n];
-      if (!lies_along(search, v, rank) || (named && !strstr(names, v->plain_name)))
+      if (!fg__search_lies(search, v, rank) || (named && !strstr(names, v->plain_name)))
         continue;
       const fg__role role = v->geographic;
       if (role != FG__NO_ROLE && !out[role])
@@ -186,7 +173,7 @@ static bool have_times(const fg__mesh_search *search, int rank)
   char text[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
   for (size_t n = 0; n < search->data->variable_count; ++n) {
     const fg__variable *v = &search->data->variables[n];
-    if (lies_along(search, v, rank) &&
+    if (fg__search_lies(search, v, rank) &&
         fg__attribute_text(v, "units", text, sizeof text) &&
         fg__units_read(text, label, sizeof label) == FG__QUANTITY_DATE)
       return true;

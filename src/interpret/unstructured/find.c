@@ -22,6 +22,20 @@ bool fg__same_dimension(const fg__dataset *data, int a, int b)
   return a == b || (of[a].file != of[b].file && of[a].length == of[b].length);
 }
 
+bool fg__search_lies(const fg__mesh_search *search, const fg__variable *v, int rank)
+{
+  bool same = v->rank == rank && v->element == 0 && fg__is_array(v);
+  for (int k = 0; k < rank && same; ++k)
+    same = fg__same_dimension(search->data, v->dimension[k],
+                              search->u->dimension[search->k - rank + 1 + k]);
+  return same;
+}
+
+bool fg__search_along(const fg__mesh_search *search, int dimension)
+{
+  return fg__same_dimension(search->data, search->u->dimension[search->k], dimension);
+}
+
 /* Whether y is the first of two coordinates. */
 static bool is_turned(const fg__variable *first, const fg__variable *second)
 {
@@ -96,9 +110,10 @@ static bool recognise(fg__unstructured *out, fg__mesh_search *search)
   static const struct {
     bool (*find)(fg__unstructured *, fg__mesh_search *);
     bool of_times; /* also along times that have places */
-  } rules[] = {{fg__find_ugrid, false},       {fg__find_healpix, false},
-               {fg__find_model, false},       {fg__find_coordinates, true},
-               {fg__find_trajectories, true}, {fg__find_places, true}};
+  } rules[] = {{fg__find_ugrid, false}, {fg__find_healpix, false},
+               {fg__find_model, false}, {fg__find_coordinates, true},
+               {fg__find_tiles, false}, {fg__find_trajectories, true},
+               {fg__find_places, true}};
   const size_t count = sizeof rules / sizeof *rules;
   const bool named = search->pair && search->pair->position[0];
   for (size_t n = named ? count - 1 : 0; n < count && !search->lacks[0]; ++n)
@@ -166,24 +181,49 @@ int fg__places_dimension(const fg__unstructured *mesh, const fg__pair *pair)
   return mesh->node[2] && pair->component[2] ? 3 : 2;
 }
 
-/* Of arrays of places: all of them are one axis, before which is time, and level. */
+bool fg__along_places(const fg__dataset *data, const fg__unstructured *mesh,
+                      const fg__variable *v, int k)
+{
+  if (mesh->rank > 1 && !mesh->is_tiled)
+    return k >= v->rank - mesh->rank;
+  bool along = fg__same_dimension(data, v->dimension[k], mesh->dimension);
+  for (int n = 0; n + 1 < mesh->rank; ++n)
+    along = along || v->dimension[k] == mesh->before[n];
+  return along;
+}
+
+/* Of arrays of places: all of them are one axis, beside which are time and level, in this
+ * order where nothing says which is which. */
 static bool axis_of_arrays(fg__grid *grid, const fg__dataset *data, const fg__variable *v,
                            const fg__unstructured *mesh)
 {
-  const int first = v->rank - mesh->rank;
-  bool same = first >= 0 && first <= 2;
-  for (int k = 0; k < mesh->rank && same; ++k)
-    same = fg__same_dimension(data, v->dimension[first + k],
+  int *const place[] = {&grid->time, &grid->level};
+  int along = 0, dimension[FG__RANK];
+  grid->time = grid->level = -1;
+  grid->samples = 1;
+  for (int k = 0; k < v->rank; ++k) {
+    if (fg__along_places(data, mesh, v, k)) {
+      dimension[along++] = k;
+      grid->samples *= data->dimensions[v->dimension[k]].length;
+      continue;
+    }
+    const fg__role role = fg__claimed_role(data, v, k);
+    int n = role == FG__ROLE_LEVEL;
+    if (role != FG__ROLE_TIME && *place[n] >= 0)
+      n = 1;
+    if (*place[n] >= 0 && data->dimensions[v->dimension[k]].length > 1)
+      return false;
+    if (*place[n] < 0)
+      *place[n] = k;
+  }
+  bool same = along == mesh->rank;
+  for (int k = 0; k < along && same; ++k)
+    same = fg__same_dimension(data, v->dimension[dimension[k]],
                               k + 1 < mesh->rank ? mesh->before[k] : mesh->dimension);
   if (!same)
     return false;
-  grid->axis[0] = axis_along(data, v, v->rank - 1);
-  grid->axis[1] = axis_along(data, v, v->rank - 2);
-  grid->time = first > 0 ? 0 : -1;
-  grid->level = first > 1 ? 1 : -1;
-  grid->samples = 1;
-  for (int k = first; k < v->rank; ++k)
-    grid->samples *= data->dimensions[v->dimension[k]].length;
+  grid->axis[0] = axis_along(data, v, dimension[along - 1]);
+  grid->axis[1] = axis_along(data, v, dimension[along - 2]);
   fg__set_index_axes(grid, data, v);
   return true;
 }
@@ -268,6 +308,8 @@ static void check_pair(fg__grid *grid, const fg__dataset *data, const fg__pair *
                      "three components on an unstructured mesh; two can be read");
   else if (options->frame == FG_FRAME_GRID)
     fg__set_unusable(grid->unusable, "an unstructured mesh has no directions of its own");
+  else if (mesh->is_tiled)
+    fg__check_tiles(grid, pair, options->frame);
   check_storage(grid, data, mesh, pair);
 }
 

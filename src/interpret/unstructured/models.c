@@ -14,11 +14,6 @@ static const fg__variable *array_named(const fg__dataset *data, const char *name
              : NULL;
 }
 
-static bool lies_along(const fg__mesh_search *search, int dimension)
-{
-  return fg__same_dimension(search->data, search->u->dimension[search->k], dimension);
-}
-
 static bool pair_named(const fg__variable *out[2], const fg__dataset *data, const char *x,
                        const char *y)
 {
@@ -89,7 +84,7 @@ static bool find_mpas(fg__unstructured *out, fg__mesh_search *search)
              frame);
     return true;
   }
-  if (!centre[0] || !centre[1] || !lies_along(search, centre[0]->dimension[0]))
+  if (!centre[0] || !centre[1] || !fg__search_along(search, centre[0]->dimension[0]))
     return false;
   if (!out->connectivity || !out->node[0] || !out->node[1]) {
     out->connectivity = NULL;
@@ -166,11 +161,11 @@ static bool find_known(fg__unstructured *out, fg__mesh_search *search,
   out->faces_along =
       data->dimensions[dimension[1]].length > data->dimensions[dimension[0]].length;
   out->start = 1;
-  if (lies_along(search, dimension[out->faces_along])) {
+  if (fg__search_along(search, dimension[out->faces_along])) {
     out->location = FG__MESH_ON_FACES;
-    if (out->centre[0] && !lies_along(search, out->centre[0]->dimension[0]))
+    if (out->centre[0] && !fg__search_along(search, out->centre[0]->dimension[0]))
       out->centre[0] = out->centre[1] = NULL;
-  } else if (lies_along(search, out->node[0]->dimension[0])) {
+  } else if (fg__search_along(search, out->node[0]->dimension[0])) {
     out->location = FG__MESH_ON_NODES;
   } else {
     return false;

@@ -8,17 +8,6 @@
 
 enum { SPACE = 3 };
 
-/* Whether a variable lies along the last `rank` dimensions of the vectors, up to number
- * search->k. */
-static bool lies_along(const fg__mesh_search *search, const fg__variable *v, int rank)
-{
-  bool same = v->rank == rank && v->element == 0 && fg__is_array(v);
-  for (int k = 0; k < rank && same; ++k)
-    same = fg__same_dimension(search->data, v->dimension[k],
-                              search->u->dimension[search->k - rank + 1 + k]);
-  return same;
-}
-
 /* px and py may be a momentum. */
 static bool is_component(const fg__mesh_search *search, const fg__variable *v)
 {
@@ -35,7 +24,7 @@ static const fg__variable *find_named(const fg__mesh_search *search, fg__column_
   for (size_t i = 0; i < search->data->variable_count; ++i) {
     const fg__variable *v = &search->data->variables[i];
     const int here = fg__column_fits(v->plain_name, use);
-    if (here > fits && !is_component(search, v) && lies_along(search, v, rank)) {
+    if (here > fits && !is_component(search, v) && fg__search_lies(search, v, rank)) {
       best = v;
       fits = here;
     }
@@ -65,7 +54,7 @@ static bool are_named(fg__unstructured *out, const fg__mesh_search *search, int 
   if (!pair || !pair->position[0])
     return false;
   for (int k = 0; k < SPACE; ++k) {
-    if (pair->position[k] && !lies_along(search, pair->position[k], rank))
+    if (pair->position[k] && !fg__search_lies(search, pair->position[k], rank))
       return false;
     out->node[k] = pair->position[k];
   }

@@ -60,11 +60,6 @@ static bool positions_by(const fg__variable *out[2], const fg__dataset *data,
          fg__named_positions(out, data, names);
 }
 
-static bool lies_along(const fg__mesh_search *search, int dimension)
-{
-  return fg__same_dimension(search->data, search->u->dimension[search->k], dimension);
-}
-
 static void settle(fg__unstructured *out, const fg__variable *topology, const char *where)
 {
   const fg__variable *at = out->node[0];
@@ -100,10 +95,10 @@ static bool find_edges(fg__unstructured *out, fg__mesh_search *search,
   fg__attribute_text(topology, "edge_node_connectivity", name, sizeof name);
   const fg__variable *edges = name[0] ? fg__dataset_find(search->data, name) : NULL;
   if (!edges || edges->rank < 1 || !fg__is_array(edges) ||
-      !lies_along(search, edges->dimension[0]))
+      !fg__search_along(search, edges->dimension[0]))
     return false;
   if (!positions_by(at, search->data, topology, "edge_coordinates") ||
-      !lies_along(search, at[0]->dimension[0])) {
+      !fg__search_along(search, at[0]->dimension[0])) {
     snprintf(search->lacks, sizeof search->lacks,
              "the mesh '%.60s' says not where its edges are: it has no edge_coordinates",
              topology->plain_name);
@@ -130,15 +125,15 @@ static bool find_on(fg__unstructured *out, fg__mesh_search *search,
              topology->plain_name);
     return false;
   }
-  if (lies_along(search, out->connectivity->dimension[out->faces_along])) {
+  if (fg__search_along(search, out->connectivity->dimension[out->faces_along])) {
     out->location = FG__MESH_ON_FACES;
     if (!positions_by(out->centre, data, topology, "face_coordinates") ||
-        !lies_along(search, out->centre[0]->dimension[0]))
+        !fg__search_along(search, out->centre[0]->dimension[0]))
       out->centre[0] = out->centre[1] = NULL;
     settle(out, topology, "faces");
     return true;
   }
-  if (lies_along(search, out->node[0]->dimension[0])) {
+  if (fg__search_along(search, out->node[0]->dimension[0])) {
     out->location = FG__MESH_ON_NODES;
     find_rows(out, search, topology);
     settle(out, topology, "nodes");

@@ -25,6 +25,7 @@ struct fg__unstructured {
   int dimension; /* of the vectors, of the file's */
   int rank;      /* of arrays of places; the last is `dimension` */
   int before[2]; /* the others, where rank is 2 or 3 */
+  bool is_tiled; /* these are of tiles, in any place among a variable's dimensions */
   fg__row_axis rows_time, rows_level;
   const fg__variable *connectivity; /* nodes of faces, 2 dimensions; NULL: none */
   int faces_along;                  /* which of its dimensions is the faces' */
@@ -45,6 +46,7 @@ struct fg__unstructured {
   bool in_radians;                  /* where units do not say */
   fg__grid of_v;                    /* the second component's own dimensions */
   char rule[2 * FG__TEXT_BYTES];    /* what the mesh is and how it was found */
+  char axis_name[3][FG__TEXT_BYTES]; /* of the field that it becomes */
 };
 
 /* find.c. Finds the mesh that a pair lies on; then grid->unstructured is set, and the
@@ -67,6 +69,13 @@ bool fg__unstructured_line(const fg__dataset *data, const fg__variable *v);
 /* Whether north is known: places are longitudes and latitudes, be they read as a plane's.
  */
 bool fg__points_north(const fg__unstructured *mesh);
+
+/* tiles.c. Makes a pair on tiles unusable unless it points east and north. */
+void fg__check_tiles(fg__grid *grid, const fg__pair *pair, fg_frame wanted);
+
+/* Whether a variable's dimension number k is one of those along which places lie. */
+bool fg__along_places(const fg__dataset *data, const fg__unstructured *mesh,
+                      const fg__variable *v, int k);
 
 /* Whether a variable has one number for each place. */
 bool fg__lies_at_places(const fg__unstructured *mesh, const fg__variable *v);
@@ -97,9 +106,9 @@ bool fg__unstructured_elsewhere(const fg__dataset *data, const fg__variable *v);
 /* The steps of that: whether variable u lies on such a mesh, along its dimension number
  * k. ugrid.c: the attributes of the UGRID conventions, 1.0. models.c: names of MPAS,
  * FVCOM, ADCIRC, ICON. coordinates.c: longitude and latitude along one dimension, with
- * bounds or without, or along trajectories; HEALPix. places.c: x, y(, z) or those that
- * are named, along one dimension, or in arrays without names. Writes what is lacking into
- * `lacks`, which then is why the pair can not be read. */
+ * bounds or without, or along trajectories; HEALPix. tiles.c: on tiles. places.c: x, y(,
+ * z) or those that are named, along one dimension, or in arrays without names. Writes
+ * what is lacking into `lacks`, which then is why the pair can not be read. */
 typedef struct fg__mesh_search {
   const fg__dataset *data;
   const fg__variable *u;
@@ -109,10 +118,16 @@ typedef struct fg__mesh_search {
   bool elsewhere; /* what is lacking may be in another file */
 } fg__mesh_search;
 
+/* Whether a variable lies along the last `rank` dimensions of the vectors up to that
+ * which is looked at; and whether a dimension is that. */
+bool fg__search_lies(const fg__mesh_search *search, const fg__variable *v, int rank);
+bool fg__search_along(const fg__mesh_search *search, int dimension);
+
 bool fg__find_ugrid(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_model(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_healpix(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_coordinates(fg__unstructured *out, fg__mesh_search *search);
+bool fg__find_tiles(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search);
 bool fg__find_places(fg__unstructured *out, fg__mesh_search *search);
 

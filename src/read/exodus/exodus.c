@@ -14,7 +14,5 @@ const fg__format fg__format_exodus = {.name = "Exodus",
                                       .files = "Exodus II (.exo, .e)",
                                       .is_mine = fg__is_exodus,
                                       .inventory = inventory_hook,
-                                      .inventory_chosen = chosen_hook,
-                                      .defaults = defaults_hook,
                                       .sphere = sphere_hook,
                                       .read = read_hook};

@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 /* What is put in: linear in the place, so that linear cells give it back exactly. */
 static double velocity_at(const double p[3], int k, int time)

@@ -13,7 +13,5 @@ const fg__format fg__format_grib = {.name = "GRIB",
                                     .files = "GRIB (editions 1 and 2)",
                                     .is_mine = fg__is_grib,
                                     .inventory = inventory_hook,
-                                    .inventory_chosen = chosen_hook,
-                                    .defaults = defaults_hook,
                                     .sphere = sphere_hook,
                                     .read = read_hook};

@@ -3,7 +3,9 @@
 #include "decode/signature.h"
 #include "read/isolate/wire.h"
 
+#include <limits.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Bound of CPU time, as damaged files can cause an endless loop. Valid files take time in
@@ -17,14 +19,16 @@ enum {
   LISTED_BYTES_A_SECOND = 250000,
   BYTES_A_SECOND = 20000000,
   MOST_SECONDS = 10,
-  TIMES_LARGER = 4096
+  TIMES_LARGER = 4096,
+  MOST_FILES = 4096 /* that are named */
 };
 static const size_t MOST_BYTES = (size_t)1 << 30;
 static const char HDF5[] = "HDF5";
 
 static const char *library_of(const fg__source *source)
 {
-  if (fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
+  if (fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5 ||
+      fg__is_xdmf(source->bytes, source->size))
     return HDF5;
   return fg__is_grib(source->bytes, source->size) ? "ecCodes" : NULL;
 }
@@ -47,10 +51,35 @@ static void add_file(fg__isolation *out, const char *path)
     fg__source_close(&source, NULL, FG_STATUS_OK);
 }
 
+/* The files that markup names as "file:array", in its folder: those that follow one
+ * another once. */
+static void add_named(fg__isolation *out, const fg__source *source)
+{
+  char before[PATH_MAX] = "", path[PATH_MAX];
+  const char *text = (const char *)source->bytes;
+  if (!source->on_disk || !fg__is_xdmf(source->bytes, source->size))
+    return;
+  const char *slash = strrchr(source->path, '/');
+  const int folder = slash ? (int)(slash - source->path) + 1 : 0;
+  for (size_t at = 0, start = 0, files = 0; at < source->size && files < MOST_FILES; ++at)
+    if (text[at] && strchr("> \t\r\n\"", text[at])) {
+      start = at + 1;
+    } else if (text[at] == ':' && at > start && at - start < NAME_MAX) {
+      snprintf(path, sizeof path, "%.*s%.*s", folder, source->path, (int)(at - start),
+               text + start);
+      if (strcmp(path, before) != 0) {
+        add_file(out, path);
+        ++files;
+      }
+      memcpy(before, path, sizeof path);
+    }
+}
+
 void fg__isolation_find(fg__isolation *out, const fg_input *input)
 {
   *out = (fg__isolation){.library = NULL};
   add_source(out, &input->source);
+  add_named(out, &input->source);
   add_file(out, input->options.vars_from);
   add_file(out, input->options.mesh_from);
 }
@@ -80,8 +109,6 @@ static void pass_answer(fg__wire *wire, fg__answer *answer, fg_status *status,
   if (*status != FG_STATUS_OK) {
     fg__wire_text(wire, &texts[0]);
     fg__wire_text(wire, &texts[1]);
-  } else if (kind == FG__ASK_DEFAULTS) {
-    fg__wire_bytes(wire, &answer->defaults, sizeof answer->defaults);
   } else if (kind == FG__ASK_FIELD) {
     fg__wire_field(wire, &answer->field);
   } else {

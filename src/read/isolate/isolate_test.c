@@ -117,25 +117,19 @@ static fg_status read_any(fg_field **out, fg_context *context, const fg__source 
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status find_defaults(fg_read_defaults *out, fg_context *context,
-                               const fg__source *source, const fg_read_options *options)
-{
-  (void)context, (void)source, (void)options;
-  *out = (fg_read_defaults){3, "lat, lon"};
-  return FG_STATUS_OK;
-}
-
 static fg_status list(fg_inventory *inventory, fg_context *context,
-                      const fg__source *source)
+                      const fg__source *source, const fg_read_options *options)
 {
   static const fg_axis_value level[] = {{850.0, "hPa", "850 hPa"},
                                         {(double)NAN, "", "top"}};
-  (void)source;
+  (void)source, (void)options;
   fg_inventory_vector vector = {.components = 2,
                                 .name = {"u", "v"},
                                 .units = "m/s",
                                 .times = 4,
                                 .levels = 2,
+                                .usual_level = 3,
+                                .absent = "lat, lon",
                                 .level_value = level,
                                 .plane = "+proj=laea",
                                 .axis_name = {"along"}};
@@ -145,7 +139,7 @@ static fg_status list(fg_inventory *inventory, fg_context *context,
 }
 
 static const fg__format made_up = {
-    .name = "made up", .read = read_any, .defaults = find_defaults, .inventory = list};
+    .name = "made up", .read = read_any, .inventory = list};
 
 /* Three inputs of one kind: the second is isolated. */
 static fg_input input_of(const char *library)
@@ -370,6 +364,7 @@ static void only_libraries_that_crash_are_isolated(void **state)
     const char *library;
   } cases[] = {{"\211HDF\r\n\032\n....", 12, "HDF5"},
                {"a heading\nGRIB\0\0\0\2\0\0\0\0\0\0\1\0", 26, "ecCodes"},
+               {"<Xdmf Version='3'/>", 19, "HDF5"},
                {"CDF\001........", 12, NULL},
                {"x,y,u,v\n0,0,1,1\n", 16, NULL}};
   (void)state;
@@ -393,6 +388,32 @@ static void only_libraries_that_crash_are_isolated(void **state)
   }
 }
 
+/* Time and memory of a child process are by the bytes of all that it may read. */
+static void what_markup_names_counts(void **state)
+{
+  static const char markup[] = "<Xdmf a:b='c'><D>b.h5:/U</D><D>\nb.h5:/V </D></Xdmf>";
+  static const char stored[] = "\211HDF\r\n\032\n....";
+  char folder[] = "/tmp/flowgrain-isolate-XXXXXX", path[64], other[64];
+  (void)state;
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/a.xdmf", folder);
+  snprintf(other, sizeof other, "%s/b.h5", folder);
+  FILE *file = fopen(other, "wb");
+  assert_non_null(file);
+  fwrite(stored, 1, 12, file);
+  fclose(file);
+  fg_input input = {.source = {.path = path,
+                               .on_disk = true,
+                               .bytes = (const unsigned char *)markup,
+                               .size = sizeof markup - 1}};
+  fg__isolation found;
+  fg__isolation_find(&found, &input);
+  assert_same_word(found.library, "HDF5");
+  assert_int_equal(found.bytes, sizeof markup - 1 + 12);
+  unlink(other);
+  rmdir(folder);
+}
+
 int main(void)
 {
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
@@ -406,6 +427,7 @@ int main(void)
       CASE(a_stop_ends_it),
       CASE(it_ends_with_its_parent),
       CASE(only_libraries_that_crash_are_isolated),
+      CASE(what_markup_names_counts),
   };
   return cmocka_run_group_tests_name("read/isolate", tests, NULL, NULL);
 }

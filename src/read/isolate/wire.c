@@ -148,7 +148,7 @@ void fg__wire_inventory(fg__wire *wire, fg_inventory **inventory)
 /* A field without its samples. */
 typedef struct field_facts {
   fg_field_arrays arrays;
-  uint64_t infinite;
+  uint64_t missing, infinite;
   double normal_share;
   fg__field_slab slab; /* with a count of 0: the field is no slab */
 } field_facts;
@@ -173,6 +173,7 @@ static void pass_facts(fg__wire *wire, field_facts *facts)
 static void send_field(fg__wire *wire, fg_field *field)
 {
   field_facts facts = {.arrays = field->contents,
+                       .missing = field->missing,
                        .infinite = field->infinite,
                        .normal_share = field->normal_share};
   if (field->slab)
@@ -189,6 +190,7 @@ static void send_field(fg__wire *wire, fg_field *field)
 static fg_status note_facts(fg_field *field, fg_context *context,
                             const field_facts *facts)
 {
+  field->missing = facts->missing;
   field->infinite = facts->infinite;
   field->normal_share = facts->normal_share;
   if (!field->slab)

@@ -1,420 +1,164 @@
-#include <math.h>
+/* Axes and dimensions: which are longitude and latitude, in which order they run, and
+ * what fits none. Column i has u = v = i + 1, which identifies it at its longitude. */
+#include "read/netcdf/situation_test.h"
 
-#include "read/netcdf/sample.h"
+#define NORTHWARD "lat[3] :units=degrees_north = -10 5 30;"
+#define COMPONENTS "float u(lat,lon) ~ 1 lon 1; float v(lat,lon) ~ 1 lon 1;"
+#define OF_LONGITUDES(list) NORTHWARD "lon" list "; " COMPONENTS
+#define EAST " :units=degrees_east = "
 
-enum { ROWS = 3, MOST = 80 };
+/* Positions in two dimensions, with a shear as of rounding to float, or of a curved grid.
+ */
+#define SHEARED(all, lon, lat, columns, across, along, shear)                            \
+  "nav_lon(" all ") :units=degrees_east = " lon " ~ 0 " across " " shear                 \
+  "; nav_lat(" all ") :units=degrees_north = " lat " ~ 0 " along " " shear               \
+  "; float u(" all ") = " columns "; float v(" all ") = " columns ";"
+#define STRAIGHT(all, shear)                                                             \
+  SHEARED(all, "300 350 5 20", "-10*4 5*4 30*4", "1 2 3 4", "cross", "along", shear)
+#define TRANSPOSED(all)                                                                  \
+  SHEARED(all, "300*3 350*3 5*3 20*3", "-10 5 30", "1*3 2*3 3*3 4*3", "along", "cross",  \
+          "1e-5")
+#define CURVED "cross[3]; along[4];" STRAIGHT("cross,along", "2")
+#define GRID "geo 4 x 3|axis 1 'latitude'|x = 300 350 365 380|y = -10 5 30|at 365 0 = 3 3"
 
-static const double LATITUDES[ROWS] = {-10.0, 5.0, 30.0};
+#define MAPPED(mapping)                                                                  \
+  "y[3] :units=m = 0 2500 5000; x[4] :units=m = 0 2500 5000 7500; int crs() "            \
+  ":grid_mapping_name=" mapping "; float u(y,x) :standard_name=eastward_wind "           \
+  ":grid_mapping=crs ~ 1 x 1; float v(y,x) :standard_name=northward_wind ~ 1 x 1"
+#define ROTATED(u, v)                                                                    \
+  "rlat[3] :units=degrees :standard_name=grid_latitude = -10 5 30; rlon[4] "             \
+  ":units=degrees :standard_name=grid_longitude = -3 -2 -1 .5; float u(rlat,rlon)" u     \
+  " = 1 2 3 4; float v(rlat,rlon)" v " = 1 2 3 4"
+#define SQUARE NORTHWARD "lon[3] :units=degrees_east = -10 5 30;"
+#define HUGE_PLANE(side)                                                                 \
+  "y[" side "]; x[" side "]; float u(y,x) :_Chunks=#1000 1000; float v(y,x) "            \
+  ":_Chunks=#1000 1000"
 
-/* Column i holds u = i + 1, which identifies it at its longitude. */
-static void put_columns(sample_file *f, int u, int v, size_t columns)
-{
-  double values[ROWS * MOST];
-  for (size_t k = 0; k < ROWS * columns; ++k)
-    values[k] = (double)(k % columns) + 1.0;
-  sample_put(f, u, values);
-  sample_put(f, v, values);
-}
+static const situation SITUATIONS[] = {
+    {.what = "a closed circle is periodic",
+     .file = OF_LONGITUDES("[36]" EAST "5:355:10"),
+     .field = "geo 36 x 3|period 0 360|at -355 0 = 1 1|at 357.5 0 = 27.25 27.25"},
+    {.what = "one column short is a region",
+     .file = OF_LONGITUDES("[35]" EAST "0:340:10"),
+     .field = "open 0|at 345 0 = none"},
+    /* columns at either end that repeat others are read once */
+    {.what = "from -180 to 180",
+     .file = OF_LONGITUDES("[37]" EAST "-180:180:10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 1 2 3 4|at 170 0 = 36 36"},
+    {.what = "three columns twice",
+     .file = OF_LONGITUDES("[39]" EAST "-180:200:10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 1 2 3 4|at 170 0 = 36 36"},
+    {.what = "five columns twice",
+     .file = OF_LONGITUDES("[41]" EAST "-180:220:10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 1 2 3 4|at 170 0 = 36 36"},
+    {.what = "from 180 to -180",
+     .file = OF_LONGITUDES("[37]" EAST "180:-180:-10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 37 36 35|at 170 0 = 2 2"},
+    {.what = "three columns twice, westward",
+     .file = OF_LONGITUDES("[39]" EAST "200:-180:-10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 39 38 37|at 170 0 = 4 4"},
+    {.what = "five columns twice, westward",
+     .file = OF_LONGITUDES("[41]" EAST "220:-180:-10"),
+     .field = "geo 36 x 3|period 0 360|x = -180 -170|u = 41 40 39|at 170 0 = 6 6"},
+    {.what = "longitudes that jump at 180",
+     .file = OF_LONGITUDES("[6]" EAST "150 170 -170 -150 -110 -60"),
+     .field = "x = 150 170 190 210 250 300\n|u = 1 2 3 4 5 6 1"},
+    {.what = "longitudes that jump at 360",
+     .file = OF_LONGITUDES("[6]" EAST "300 340 0 20 30 35.5"),
+     .field = "x = 300 340 360 380 390 395.5\n|u = 1 2 3 4 5 6 1"},
+    {.what = "longitudes that jump westward",
+     .file = OF_LONGITUDES("[6]" EAST "-150 -170 170 150 149 120"),
+     .field = "x = -240 -211 -210 -190 -170 -150\n|u = 6 5 4 3 2 1 6"},
+    {.what = "a longitude twice",
+     .file = OF_LONGITUDES("[4]" EAST "1 2 2 4"),
+     .refused = "not strictly monotonic: 2 and 2 at samples 1 and 2"},
+    {.what = "longitudes out of order",
+     .file = OF_LONGITUDES("[4]" EAST "9 7 8 4"),
+     .refused = "not strictly monotonic: 7 and 8 at samples 1 and 2"},
+    {.what = "a longitude that is no number",
+     .file = OF_LONGITUDES("[3]" EAST "1 nan 3"),
+     .refused = "coordinate 1 of 'lon' is"},
+    {.what = "a longitude that is missing",
+     .file = OF_LONGITUDES("[3]" EAST "1 2 _"),
+     .refused = "coordinate 2 of 'lon' is"},
+    {.what = "a single column",
+     .file = OF_LONGITUDES("[1]" EAST "1"),
+     .refused = "only 1 sample"},
 
-static void make(sample_file *f, const double *longitude, size_t columns)
-{
-  sample_begin(f, 0);
-  const int lat = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
-  const int lon = sample_axis(f, "lon", columns, longitude, "degrees_east");
-  const int all[2] = {lat, lon};
-  const int u = sample_variable(f, "u", NC_FLOAT, 2, all);
-  const int v = sample_variable(f, "v", NC_FLOAT, 2, all);
-  put_columns(f, u, v, columns);
-  sample_end(f);
-}
+    {.what = "positions of a grid along longitude and latitude",
+     .file = "cross[3]; along[4];" STRAIGHT("cross,along", "1e-5"),
+     .field = GRID},
+    {.what = "its columns are along latitude",
+     .file = "cross[4]; along[3];" TRANSPOSED("cross,along"),
+     .field = GRID},
+    {.what = "its positions have a time",
+     .file = "Time[1]; cross[3]; along[4];" STRAIGHT("Time,cross,along", "1e-5"),
+     .field = GRID},
+    {.what = "its positions have a time, and columns are along latitude",
+     .file = "Time[1]; cross[4]; along[3];" TRANSPOSED("Time,cross,along"),
+     .field = GRID},
+    {.what = "a curvilinear grid without a frame",
+     .file = CURVED,
+     .refused = "nothing says whether 'u' and 'v' point east",
+     .hint = "--frame grid"},
+    {.what = "a curvilinear grid as a map",
+     .options = {.scale = FG_SCALE_MAP},
+     .refused = "curvilinear",
+     .hint = "--scale plain"},
+    {.what = "a curvilinear grid on its indices",
+     .options = {.scale = FG_SCALE_PLAIN},
+     .field = "plain 4 x 3|x = 0 1 2 3\n|axis 0 'along' ''"},
+    {.what = "lines of a swath at times of their own are no times of the field (SWOT)",
+     .file = CURVED "time(cross) :units=seconds since 2000-01-01 = 0 3 6",
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo "},
 
-static fg_field *read_field(sample_file *f)
-{
-  fg_field *field = NULL;
-  if (fg_field_read(&field, f->context, f->path, NULL) != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
-  return field;
-}
+    {.what = "components along east on axes that do not run east",
+     .file = MAPPED("lambert_conformal_conic"),
+     .refused = "points east",
+     .hint = "--scale map"},
+    {.what = "the same, as asked", .options = {.scale = FG_SCALE_MAP}, .field = "map "},
+    {.what = "Mercator's axes run east", .file = MAPPED("mercator"), .field = "map "},
+    {.what = "a rotated pole alone is a plane: nothing says where it is",
+     .file = ROTATED("", ""),
+     .field = "plain |axis 0 'grid longitude' '°'"},
+    {.what = "the same with components along east",
+     .file = ROTATED(" :standard_name=eastward_wind", " :standard_name=northward_wind"),
+     .refused = "'u' points east, but the axes of its rotated grid do not"},
+    {.what = "without coordinates or known names the last dimension is x",
+     .file = "one[1]; gridx[3]; gridy[4]; float u(one,gridx,gridy) = 1 2 3 4; float "
+             "v(one,gridx,gridy) = 1 2 3 4",
+     .field = "plain 4 x 3|u = 1 2 3 4 1 2 3 4 1 2 3 4\n"},
 
-static void refuse(sample_file *f, const char *words)
-{
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  assert_int_equal(fg_field_read(&field, f->context, f->path, NULL),
-                   FG_STATUS_UNSUPPORTED);
-  if (!strstr(fg_context_message(f->context), words))
-    fail_msg("\"%s\" lacks \"%s\"", fg_context_message(f->context), words);
-}
+    {.what = "a dimension that is neither time nor level",
+     .file = "time[2]; lev[2]; member[3];" SQUARE "float u(time,lev,member,lat,lon); "
+             "float v(time,lev,member,lat,lon)",
+     .refused = "dimension 'member' of 3 samples is neither time nor level",
+     .hint = "--at member=0"},
+    {.what = "an empty dimension",
+     .file = "time[*0];" SQUARE "float u(time,lat,lon); float v(time,lat,lon)",
+     .refused = "dimension 'time' is empty"},
+    {.what = "a line of stations",
+     .file = "time[4]; station[7]; float u(time,station); float v(time,station)",
+     .refused = "only one dimension in space"},
+    {.what = "components of different rank",
+     .file = "time[2];" SQUARE "float u(time,lat,lon); float v(lat,lon)",
+     .refused = "'u' is 2 x 3 x 3, 'v' is 3 x 3 samples|!staggered"},
+    /* a file of a few kilobytes that declares gigabytes costs neither time nor memory */
+    {.what = "more samples than the file can have",
+     .file = HUGE_PLANE("40000"),
+     .mode = NC_NETCDF4,
+     .refused = "but the file has only"},
+    {.what = "more samples than a field can have",
+     .file = HUGE_PLANE("2000000000"),
+     .mode = NC_NETCDF4,
+     .refused = "are more than the"},
+    {.what = "long coordinates are not read to compare the components' places",
+     .file = "upper[2000000000] :_Chunks=#1000; lower[2000000000] :_Chunks=#1000;" SQUARE
+             "float u(upper,lat,lon) :_Chunks=#1000 3 3; float v(lower,lat,lon) "
+             ":_Chunks=#1000 3 3",
+     .mode = NC_NETCDF4,
+     .refused = "'u' runs along 'upper', 'v' along 'lower'"},
+};
 
-/* u at a longitude, in the first row of cells. */
-static double column_at(const fg_field *field, double longitude)
-{
-  double velocity[2] = {-1.0, -1.0};
-  assert_true(fg_field_velocity(field, (double[]){longitude, 0.0}, velocity));
-  return velocity[0];
-}
-
-static void a_closed_circle_is_periodic(void **state)
-{
-  sample_file *f = *state;
-  double longitude[MOST];
-  for (int i = 0; i < 36; ++i)
-    longitude[i] = 5.0 + 10.0 * i;
-  make(f, longitude, 36);
-  fg_field *field = read_field(f);
-  assert_true(fg_field_contents(field)->period[0] == 360.0);
-  assert_int_equal(fg_field_contents(field)->size[0], 36);
-  assert_true(fabs(column_at(field, -355.0) - 1.0) < 1e-6);
-  assert_true(fabs(column_at(field, 357.5) - (36.0 + 0.25 * (1.0 - 36.0))) < 1e-6);
-  fg_field_destroy(field);
-}
-
-static void a_region_is_not_periodic(void **state)
-{
-  sample_file *f = *state;
-  double longitude[MOST];
-  for (int i = 0; i < 35; ++i) /* one column short */
-    longitude[i] = 10.0 * i;
-  make(f, longitude, 35);
-  fg_field *field = read_field(f);
-  double velocity[2];
-  assert_true(fg_field_contents(field)->period[0] == 0.0);
-  assert_false(fg_field_velocity(field, (double[]){345.0, 0.0}, velocity));
-  fg_field_destroy(field);
-}
-
-/* Longitudes from 0 to 360 or beyond: columns at either end that repeat others are read
- * once. */
-static void repeated_columns_are_dropped(void **state)
-{
-  sample_file *f = *state;
-  double longitude[MOST];
-  for (int extra = 1; extra <= 5; extra += 2)
-    for (int descending = 0; descending < 2; ++descending) {
-      const int columns = 36 + extra;
-      for (int i = 0; i < columns; ++i)
-        longitude[i] = 10.0 * (descending ? columns - 1 - i : i) - 180.0;
-      make(f, longitude, (size_t)columns);
-      fg_field *field = read_field(f);
-      assert_int_equal(fg_field_contents(field)->size[0], 36);
-      assert_true(fg_field_contents(field)->period[0] == 360.0);
-      for (int i = 0; i < 36; ++i)
-        assert_true(fabs(column_at(field, 10.0 * i - 180.0) -
-                         (descending ? columns - i : i + 1)) < 1e-6);
-      fg_field_destroy(field);
-    }
-}
-
-static void longitudes_that_jump_go_on(void **state)
-{
-  sample_file *f = *state;
-  static const double jump[][6] = {
-      {150.0, 170.0, -170.0, -150.0, -110.0, -60.0},
-      {300.0, 340.0, 0.0, 20.0, 30.0, 35.5},
-      {-150.0, -170.0, 170.0, 150.0, 149.0, 120.0}, /* westward */
-  };
-  static const double first[] = {150.0, 300.0, -240.0};
-  static const double last[] = {300.0, 395.5, -150.0};
-  for (int k = 0; k < 3; ++k) {
-    make(f, jump[k], 6);
-    fg_field *field = read_field(f);
-    const fg_field_arrays *a = fg_field_contents(field);
-    assert_true(fabs(a->axis[0][0] - first[k]) < 1e-9);
-    assert_true(fabs(a->axis[0][5] - last[k]) < 1e-9);
-    for (int i = 0; i < 6; ++i) {
-      const double turned = remainder(jump[k][i] - first[k], 360.0);
-      const double on = first[k] + (turned < 0.0 ? turned + 360.0 : turned);
-      assert_true(fabs(column_at(field, on) - (i + 1)) < 1e-6);
-    }
-    fg_field_destroy(field);
-  }
-}
-
-static void axes_out_of_order_are_refused(void **state)
-{
-  sample_file *f = *state;
-  make(f, (double[]){1.0, 2.0, 2.0, 4.0}, 4);
-  refuse(f, "not strictly monotonic: 2 and 2 at samples 1 and 2");
-  make(f, (double[]){9.0, 7.0, 8.0, 4.0}, 4);
-  refuse(f, "not strictly monotonic: 7 and 8 at samples 1 and 2");
-  make(f, (double[]){1.0, (double)NAN, 3.0}, 3);
-  refuse(f, "coordinate 1 of 'lon' is");
-  make(f, (double[]){1.0, 2.0, NC_FILL_DOUBLE}, 3);
-  refuse(f, "coordinate 2 of 'lon' is");
-  make(f, (double[]){1.0}, 1);
-  refuse(f, "only 1 sample");
-}
-
-/* Two-dimensional longitude and latitude; dimensions may be swapped. */
-static void make_plane(sample_file *f, double shear, bool transposed, bool timed)
-{
-  static const double lon[4] = {300.0, 350.0, 5.0, 20.0}; /* jumps from 360 to 0 */
-  double plane[2][4 * ROWS];
-  double value[4 * ROWS];
-  sample_begin(f, NC_NETCDF4);
-  const int a = sample_dimension(f, "cross", transposed ? 4 : ROWS);
-  const int b = sample_dimension(f, "along", transposed ? ROWS : 4);
-  const int all[3] = {timed ? sample_dimension(f, "Time", 1) : a, timed ? a : b, b};
-  const int rank = timed ? 3 : 2;
-  const int u = sample_variable(f, "u", NC_FLOAT, rank, all);
-  const int v = sample_variable(f, "v", NC_FLOAT, rank, all);
-  const int x = sample_variable(f, "nav_lon", NC_DOUBLE, rank, all);
-  const int y = sample_variable(f, "nav_lat", NC_DOUBLE, rank, all);
-  sample_text(f, x, "units", "degrees_east");
-  sample_text(f, y, "units", "degrees_north");
-  for (int j = 0; j < ROWS; ++j)
-    for (int i = 0; i < 4; ++i) {
-      const int k = transposed ? i * ROWS + j : j * 4 + i;
-      plane[0][k] = lon[i] + shear * j;
-      plane[1][k] = LATITUDES[j] + shear * i;
-      value[k] = i + 1;
-    }
-  sample_put(f, x, plane[0]);
-  sample_put(f, y, plane[1]);
-  sample_put(f, u, value);
-  sample_put(f, v, value);
-  sample_end(f);
-}
-
-static void grids_in_disguise_are_recognised(void **state)
-{
-  sample_file *f = *state;
-  for (int way = 0; way < 4; ++way) {
-    make_plane(f, 1e-5, way % 2 == 1, way >= 2); /* shear like the rounding of float */
-    fg_field *field = read_field(f);
-    const fg_field_arrays *a = fg_field_contents(field);
-    assert_int_equal(a->scale, FG_SCALE_GEO);
-    assert_int_equal(a->size[0], 4);
-    assert_int_equal(a->size[1], ROWS);
-    assert_true(fabs(a->axis[0][3] - 380.0) < 1e-3);
-    assert_true(fabs(a->axis[1][2] - 30.0) < 1e-3);
-    assert_string_equal(a->axis_name[1], "latitude");
-    assert_true(fabs(column_at(field, 365.0) - 3.0) < 1e-3);
-    fg_field_destroy(field);
-  }
-}
-
-static void curvilinear_grids_need_a_frame(void **state)
-{
-  sample_file *f = *state;
-  make_plane(f, 2.0, false, false);
-  refuse(f, "nothing says whether 'u' and 'v' point east");
-  assert_non_null(strstr(fg_context_hint(f->context), "--frame grid"));
-  refuse_with(f, &(fg_read_options){.scale = FG_SCALE_MAP}, FG_STATUS_UNSUPPORTED,
-              "curvilinear");
-  assert_non_null(strstr(fg_context_hint(f->context), "--scale plain"));
-  fg_context_clear(f->context);
-  fg_field *field = NULL;
-  const fg_read_options plain = {.scale = FG_SCALE_PLAIN};
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &plain), FG_STATUS_OK);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_true(a->axis[0][0] == 0.0 && a->axis[0][3] == 3.0);
-  assert_string_equal(a->axis_name[0], "along");
-  assert_string_equal(a->axis_units[0], "");
-  fg_field_destroy(field);
-}
-
-/* Lines of a swath at times of their own are no times of the field (SWOT). */
-static void swaths_run_along_time(void **state)
-{
-  sample_file *f = *state;
-  static const double seconds[ROWS] = {0.0, 3.0, 6.0};
-  int lines;
-  make_plane(f, 2.0, false, false);
-  nc_must(nc_open(f->path, NC_WRITE, &f->id));
-  nc_must(nc_inq_dimid(f->id, "cross", &lines));
-  const int time = sample_variable(f, "time", NC_DOUBLE, 1, &lines);
-  sample_text(f, time, "units", "seconds since 2000-01-01");
-  sample_put(f, time, seconds);
-  sample_end(f);
-  fg_field *field = read_with(f, &(fg_read_options){.frame = FG_FRAME_EAST});
-  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
-  fg_field_destroy(field);
-}
-
-/* Components along east on axes that do not run east. */
-static void components_must_run_along_the_axes(void **state)
-{
-  sample_file *f = *state;
-  static const char *const mapping[] = {"lambert_conformal_conic", "mercator"};
-  static const double metres[4] = {0.0, 2500.0, 5000.0, 7500.0};
-  for (int k = 0; k < 2; ++k) {
-    sample_begin(f, 0);
-    const int y = sample_axis(f, "y", ROWS, metres, "m");
-    const int x = sample_axis(f, "x", 4, metres, "m");
-    const int crs = sample_variable(f, "crs", NC_INT, 0, NULL);
-    sample_text(f, crs, "grid_mapping_name", mapping[k]);
-    const int u = sample_variable(f, "u", NC_FLOAT, 2, (int[]){y, x});
-    const int v = sample_variable(f, "v", NC_FLOAT, 2, (int[]){y, x});
-    sample_text(f, u, "standard_name", "eastward_wind");
-    sample_text(f, v, "standard_name", "northward_wind");
-    sample_text(f, u, "grid_mapping", "crs");
-    put_columns(f, u, v, 4);
-    sample_end(f);
-    if (k == 0) {
-      refuse(f, "points east");
-      assert_non_null(strstr(fg_context_hint(f->context), "--scale map"));
-    }
-    const fg_read_options map = {.scale = k == 0 ? FG_SCALE_MAP : FG_SCALE_AUTO};
-    fg_field *field = NULL;
-    fg_context_clear(f->context);
-    assert_int_equal(fg_field_read(&field, f->context, f->path, &map), FG_STATUS_OK);
-    assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_MAP);
-    fg_field_destroy(field);
-  }
-}
-
-/* Nothing says where on the Earth it is. */
-static void a_rotated_pole_alone_is_a_plane(void **state)
-{
-  sample_file *f = *state;
-  static const double degrees[4] = {-3.0, -2.0, -1.0, 0.5};
-  sample_begin(f, 0);
-  const int y = sample_axis(f, "rlat", ROWS, LATITUDES, "degrees");
-  const int x = sample_axis(f, "rlon", 4, degrees, "degrees");
-  int id;
-  nc_must(nc_inq_varid(f->id, "rlat", &id));
-  sample_text(f, id, "standard_name", "grid_latitude");
-  nc_must(nc_inq_varid(f->id, "rlon", &id));
-  sample_text(f, id, "standard_name", "grid_longitude");
-  const int u = sample_variable(f, "u", NC_FLOAT, 2, (int[]){y, x});
-  const int v = sample_variable(f, "v", NC_FLOAT, 2, (int[]){y, x});
-  put_columns(f, u, v, 4);
-  sample_end(f);
-  fg_field *field = read_field(f);
-  assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_PLAIN);
-  assert_string_equal(fg_field_contents(field)->axis_name[0], "grid longitude");
-  assert_string_equal(fg_field_contents(field)->axis_units[0], "°");
-  fg_field_destroy(field);
-  nc_must(nc_open(f->path, NC_WRITE, &f->id));
-  sample_text(f, u, "standard_name", "eastward_wind");
-  sample_text(f, v, "standard_name", "northward_wind");
-  sample_end(f);
-  refuse(f, "'u' points east, but the axes of its rotated grid do not");
-}
-
-/* Without coordinates or known names the last dimension is x. */
-static void bare_arrays_are_read_on_their_indices(void **state)
-{
-  sample_file *f = *state;
-  sample_begin(f, 0);
-  const int member = sample_dimension(f, "one", 1);
-  const int y = sample_dimension(f, "gridx", ROWS);
-  const int x = sample_dimension(f, "gridy", 4);
-  const int u = sample_variable(f, "u", NC_FLOAT, 3, (int[]){member, y, x});
-  const int v = sample_variable(f, "v", NC_FLOAT, 3, (int[]){member, y, x});
-  put_columns(f, u, v, 4);
-  sample_end(f);
-  fg_field *field = read_field(f);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_int_equal(a->size[0], 4);
-  assert_int_equal(a->size[1], ROWS);
-  assert_int_equal(a->scale, FG_SCALE_PLAIN);
-  assert_true(a->velocity[0][ROWS * 4 - 1] == 4.0f);
-  fg_field_destroy(field);
-}
-
-static void dimensions_that_fit_nothing_are_refused(void **state)
-{
-  sample_file *f = *state;
-  sample_begin(f, 0);
-  int all[5];
-  all[0] = sample_dimension(f, "time", 2);
-  all[1] = sample_dimension(f, "lev", 2);
-  all[2] = sample_dimension(f, "member", 3);
-  all[3] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
-  all[4] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
-  sample_variable(f, "u", NC_FLOAT, 5, all);
-  sample_variable(f, "v", NC_FLOAT, 5, all);
-  sample_end(f);
-  refuse(f, "dimension 'member' of 3 samples is neither time nor level");
-  assert_non_null(strstr(fg_context_hint(f->context), "--at member=0"));
-  sample_begin(f, 0);
-  all[0] = sample_dimension(f, "time", NC_UNLIMITED);
-  all[1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
-  all[2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
-  sample_variable(f, "u", NC_FLOAT, 3, all);
-  sample_variable(f, "v", NC_FLOAT, 3, all);
-  sample_end(f);
-  refuse(f, "dimension 'time' is empty");
-  sample_begin(f, 0);
-  all[0] = sample_dimension(f, "time", 4);
-  all[1] = sample_dimension(f, "station", 7);
-  sample_variable(f, "u", NC_FLOAT, 2, all);
-  sample_variable(f, "v", NC_FLOAT, 2, all);
-  sample_end(f);
-  refuse(f, "only one dimension in space");
-  sample_begin(f, 0);
-  all[0] = sample_dimension(f, "time", 2);
-  all[1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
-  all[2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
-  sample_variable(f, "u", NC_FLOAT, 3, all);
-  sample_variable(f, "v", NC_FLOAT, 2, all + 1);
-  sample_end(f);
-  refuse(f, "'u' is 2 x 3 x 3, 'v' is 3 x 3 samples");
-  assert_null(strstr(fg_context_message(f->context), "staggered"));
-}
-
-/* A file of a few kilobytes that declares gigabytes must cost neither time nor memory. */
-static void grids_that_no_file_can_hold_are_refused(void **state)
-{
-  sample_file *f = *state;
-  static const size_t side[] = {40000, 2000000000};
-  static const char *const reason[] = {"but the file has only", "are more than the"};
-  for (int k = 0; k < 2; ++k) {
-    sample_begin(f, NC_NETCDF4);
-    const int all[2] = {sample_dimension(f, "y", side[k]),
-                        sample_dimension(f, "x", side[k])};
-    const size_t chunk[2] = {1000, 1000};
-    for (int component = 0; component < 2; ++component) {
-      const int id = sample_variable(f, component == 0 ? "u" : "v", NC_FLOAT, 2, all);
-      nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
-    }
-    sample_end(f);
-    refuse(f, reason[k]);
-  }
-}
-
-/* Nor are declared values read to compare the components' places. */
-static void coordinates_that_no_file_can_hold_are_not_compared(void **state)
-{
-  sample_file *f = *state;
-  sample_begin(f, NC_NETCDF4);
-  int all[2][3];
-  const size_t chunk[3] = {1000, ROWS, ROWS};
-  for (int c = 0; c < 2; ++c) {
-    all[c][0] = sample_dimension(f, c == 0 ? "upper" : "lower", 2000000000);
-    const int id = sample_variable(f, c == 0 ? "upper" : "lower", NC_DOUBLE, 1, all[c]);
-    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
-  }
-  all[0][1] = all[1][1] = sample_axis(f, "lat", ROWS, LATITUDES, "degrees_north");
-  all[0][2] = all[1][2] = sample_axis(f, "lon", ROWS, LATITUDES, "degrees_east");
-  for (int c = 0; c < 2; ++c) {
-    const int id = sample_variable(f, c == 0 ? "u" : "v", NC_FLOAT, 3, all[c]);
-    nc_must(nc_def_var_chunking(f->id, id, NC_CHUNKED, chunk));
-  }
-  sample_end(f);
-  refuse(f, "'u' runs along 'upper', 'v' along 'lower'");
-}
-
-int main(void)
-{
-#define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
-  const struct CMUnitTest tests[] = {
-      CASE(a_closed_circle_is_periodic),
-      CASE(a_region_is_not_periodic),
-      CASE(repeated_columns_are_dropped),
-      CASE(longitudes_that_jump_go_on),
-      CASE(axes_out_of_order_are_refused),
-      CASE(grids_in_disguise_are_recognised),
-      CASE(curvilinear_grids_need_a_frame),
-      CASE(swaths_run_along_time),
-      CASE(components_must_run_along_the_axes),
-      CASE(a_rotated_pole_alone_is_a_plane),
-      CASE(bare_arrays_are_read_on_their_indices),
-      CASE(dimensions_that_fit_nothing_are_refused),
-      CASE(grids_that_no_file_can_hold_are_refused),
-      CASE(coordinates_that_no_file_can_hold_are_not_compared),
-  };
-  return cmocka_run_group_tests_name("read/netcdf/axes", tests, NULL, NULL);
-}
+SITUATIONS_MAIN("read/netcdf/axes", SITUATIONS)

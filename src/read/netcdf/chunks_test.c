@@ -5,7 +5,7 @@
 #include <string.h>
 #include <zlib.h>
 
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 /* A chunk of more than a megabyte as stored; smaller ones inflate to a gigabyte at
  * most. */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { NX = 36, NY = 17, COUNT = NX * NY };
 

@@ -1,5 +1,5 @@
 /* One input answers several questions. */
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { TIMES = 3, LEVELS = 2, NY = 4, NX = 5, COUNT = TIMES * LEVELS * NY * NX };
 

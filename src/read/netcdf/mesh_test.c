@@ -111,6 +111,14 @@ static const model_variable ROMS_EAST[] = {
     {"angle", ANGLE, "eta_rho", "xi_rho", 0, 0, 0.0, 0.0, {"units", "radians"}},
     {0}};
 
+/* what CDO leaves of WRF's wind: no positions of centres, no attributes */
+static const model_variable WRF_FACES[] = {
+    LONLAT("XLONG_U", "XLAT_U", "south_north", "west_east_stag", 0, 1, 0.0, -0.5),
+    LONLAT("XLONG_V", "XLAT_V", "south_north_stag", "west_east", 1, 0, -0.5, 0.0),
+    {"U", ALONG_I, "south_north", "west_east_stag", 0, 1, 0.0, -0.5, {"stagger", "X"}},
+    {"V", ALONG_J, "south_north_stag", "west_east", 1, 0, -0.5, 0.0, {"stagger", "Y"}},
+    {0}};
+
 /* a file cut out of WRF's, without COSALPHA */
 static const model_variable WRF_CUT[] = {
     LONLAT("XLONG", "XLAT", "south_north", "west_east", 0, 0, 0.0, 0.0),
@@ -152,6 +160,7 @@ static void models_are_read(void **state)
                 {POP, "turned by 'ANGLE' (the file has the grid's angle)"},
                 {POP_EAST, "east and north (its name says zonal)"},
                 {ROMS_EAST, "east and north (its name says eastward)"},
+                {WRF_FACES, "turned by its positions (a staggered grid)"},
                 {WRF_CUT, "turned by its positions (WRF's attributes)"},
                 {HYCOM, "east and north (standard_name eastward_sea_water_velocity)"}};
   sample_file *f = *state;
@@ -378,6 +387,13 @@ static void masks_keep_land_out(void **state)
   assert_true(b->axis[0][b->size[0] - 1] - b->axis[0][0] <
               a->axis[0][a->size[0] - 1] - a->axis[0][0]);
   fg_field_destroy(all);
+  fg_field_destroy(sea);
+  model_variable faces[sizeof WRF_FACES / sizeof *WRF_FACES + 1] = {
+      {"wet", SEA, "south_north", "west_east", 0, 0, 0.0, 0.0, {0}}};
+  memcpy(faces + 1, WRF_FACES, sizeof WRF_FACES);
+  write_model(f, faces);
+  sea = read_with(f, NULL);
+  assert_near(sea, 200, 10.0 * TOLERANCE);
   fg_field_destroy(sea);
 }
 

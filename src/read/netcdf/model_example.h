@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "base/context_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 #define RADIANS 0.017453292519943295
 

@@ -5,7 +5,7 @@
 
 #include "base/context_test.h"
 #include "map/map.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 #define RADIANS 0.017453292519943295
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "flowgrain/inventory.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { NX = 5, NY = 4, NT = 3, MOST = 6, MOST_NUMBERS = 100 };
 

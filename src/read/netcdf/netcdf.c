@@ -19,7 +19,5 @@ const fg__format fg__format_netcdf = {
     .files = "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4)",
     .is_mine = is_netcdf,
     .inventory = inventory_hook,
-    .inventory_chosen = chosen_hook,
-    .defaults = defaults_hook,
     .sphere = sphere_hook,
     .read = read_hook};

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
-#include "read/netcdf/plain_test.h"
+#include "read/netcdf/plain_example.h"
 
 static void must(hid_t id)
 {

@@ -1,236 +1,130 @@
-#include "interpret/interpret.h"
-#include "read/netcdf/sample.h"
+/* Which variables are a vector, which vector goes first, and what it is called. */
+#include "read/netcdf/situation_test.h"
 
-/* A variable of a file: name, standard name, units. */
-typedef struct declared {
-  const char *name, *standard_name, *units;
-} declared;
+#define PLANE "lat[2] :units=degrees_north = 1 2; lon[3] :units=degrees_east = 1 2 3;"
+#define OF(name, attributes) "float " name "(lat,lon)" attributes " = 1 2 3 4 5 7;"
+#define SPEED " :units=m/s"
+#define NAMED(name) SPEED " :standard_name=" name
+#define EASTWARD NAMED("eastward_wind")
+#define NORTHWARD NAMED("northward_wind")
+#define WINDS(height) OF("u" height, EASTWARD) OF("v" height, NORTHWARD)
+#define U_V OF("u", SPEED) OF("v", SPEED)
 
-enum { NX = 3, NY = 2 };
-
-static void make(sample_file *f, const declared *variables, size_t count)
-{
-  static const double axis[NX] = {1.0, 2.0, 3.0};
-  static const double values[NX * NY] = {1.0, 2.0, 3.0, 4.0, 5.0, 7.0};
-  int all[2];
-  sample_begin(f, NC_NETCDF4);
-  all[0] = sample_axis(f, "lat", NY, axis, "degrees_north");
-  all[1] = sample_axis(f, "lon", NX, axis, "degrees_east");
-  for (size_t i = 0; i < count; ++i) {
-    const int id = sample_variable(f, variables[i].name, NC_FLOAT, 2, all);
-    if (variables[i].standard_name)
-      sample_text(f, id, "standard_name", variables[i].standard_name);
-    if (variables[i].units)
-      sample_text(f, id, "units", variables[i].units);
-    sample_put(f, id, values);
+/* a pair of standard names, the second first */
+#define STANDARD(first, second)                                                          \
+  {                                                                                      \
+    .what = first, .file = PLANE OF("beta", NAMED(second)) OF("alpha", NAMED(first)),    \
+    .inventory = "vectors 1|[alpha,beta "                                                \
   }
-  sample_end(f);
-}
-
-/* Reads the file's pairs as "u,v u10,v10". */
-static void list(sample_file *f, char *out, size_t size)
-{
-  fg_inventory *inventory = NULL;
-  if (fg_inventory_read(&inventory, f->context, f->path) != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
-  size_t n = 0;
-  out[0] = '\0';
-  for (int i = 0; i < fg_inventory_vector_count(inventory) && n < size; ++i) {
-    const fg_inventory_vector *v = fg_inventory_vector_at(inventory, i);
-    n += (size_t)snprintf(out + n, size - n, "%s%s,%s", n > 0 ? " " : "", v->name[0],
-                          v->name[1]);
+#define FIRST(name, variables)                                                           \
+  {                                                                                      \
+    .what = "evidence: " name " goes first", .file = PLANE variables,                    \
+    .field = "name '" name "'\nx ="                                                      \
   }
-  fg_inventory_destroy(inventory);
-}
-
-static void assert_pairs(sample_file *f, const declared *variables, size_t count,
-                         const char *wanted)
-{
-  char found[2048];
-  make(f, variables, count);
-  list(f, found, sizeof found);
-  assert_string_equal(found, wanted);
-}
-
-static void what_only_resembles_a_vector_is_not_one(void **state)
-{
-  static const declared variables[] = {
-      {"u_err", NULL, "1"},
-      {"v_err", NULL, "1"},
-      {"uerr", NULL, "m/s"},
-      {"verr", NULL, "m/s"},
-      {"ulon", NULL, "degrees_east"},
-      {"vlon", NULL, "degrees_east"},
-      {"x", NULL, "m"},
-      {"y", NULL, "m"},
-      {"dx", NULL, "m"},
-      {"dy", NULL, "m"},
-      {"pm", "inverse_of_cell_x_size", "meter-1"},
-      {"pn", "inverse_of_cell_y_size", "meter-1"},
-      {"a", "projection_x_coordinate", "m"},
-      {"b", "projection_y_coordinate", "m"},
-      {"q1", "eastward_wind status_flag", "1"},
-      {"q2", "northward_wind status_flag", "1"},
-      {"u2", NULL, NULL},
-      {"w2", NULL, NULL},
-  };
-  assert_pairs(*state, variables, sizeof variables / sizeof *variables, "");
-}
-
-static void standard_names_are_paired(void **state)
-{
-  static const char *const names[][2] = {
-      {"eastward_wind", "northward_wind"},
-      {"x_wind", "y_wind"},
-      {"grid_eastward_wind", "grid_northward_wind"},
-      {"eastward_sea_water_velocity", "northward_sea_water_velocity"},
-      {"sea_water_x_velocity", "sea_water_y_velocity"},
-      {"sea_water_x_velocity_at_u_location", "sea_water_y_velocity_at_v_location"},
-      {"surface_eastward_sea_water_velocity", "surface_northward_sea_water_velocity"},
-      {"barotropic_eastward_sea_water_velocity",
-       "barotropic_northward_sea_water_velocity"},
-      {"surface_geostrophic_eastward_sea_water_velocity",
-       "surface_geostrophic_northward_sea_water_velocity"},
-      {"sea_surface_wave_stokes_drift_x_velocity",
-       "sea_surface_wave_stokes_drift_y_velocity"},
-      {"eastward_sea_ice_velocity", "northward_sea_ice_velocity"},
-      {"sea_ice_x_velocity", "sea_ice_y_velocity"},
-      {"surface_downward_eastward_stress", "surface_downward_northward_stress"},
-  };
-  for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-    const declared variables[] = {{"beta", names[i][1], "m/s"},
-                                  {"alpha", names[i][0], "m/s"}};
-    assert_pairs(*state, variables, 2, "alpha,beta");
+/* what a pair is called, from what its components' attributes share */
+#define TITLE(attribute, first, second, title)                                           \
+  {                                                                                      \
+    .what = title,                                                                       \
+    .file = PLANE OF("u", " :" attribute "=" first)                                      \
+        OF("v", " :" attribute "=" second) ":title=the file",                            \
+    .field = "title '" title "'"                                                         \
   }
-  /* lengths, which otherwise are places */
-  static const declared drift[] = {{"dX", "sea_ice_x_displacement", "km"},
-                                   {"dY", "sea_ice_y_displacement", "km"}};
-  assert_pairs(*state, drift, 2, "dX,dY");
-}
 
-static void heights_of_one_standard_name_are_told_apart(void **state)
-{
-  static const declared variables[] = {{"u10", "eastward_wind", "m/s"},
-                                       {"v10", "northward_wind", "m/s"},
-                                       {"u100", "eastward_wind", "m/s"},
-                                       {"v100", "northward_wind", "m/s"}};
-  sample_file *f = *state;
-  fg_field *field = NULL;
-  assert_pairs(f, variables, 4, "u10,v10 u100,v100");
-  assert_int_equal(fg_field_read(&field, f->context, f->path, NULL), FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(f->context), "u10,v10; u100,v100"));
-  assert_non_null(strstr(fg_context_hint(f->context), "--vars"));
-  fg_context_clear(f->context);
-  const fg_read_options options = {.vars = "u100,v100"};
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &options), FG_STATUS_OK);
-  assert_string_equal(fg_field_contents(field)->velocity_name[1], "v100");
-  fg_field_destroy(field);
-  const fg_read_options turned = {.vars = "v100,u100"};
-  assert_int_equal(fg_field_read(&field, f->context, f->path, &turned),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(
-      strstr(fg_context_message(f->context), "'v100' is the second component"));
-  assert_string_equal(fg_context_hint(f->context), "--vars u100,v100");
-}
+static const situation SITUATIONS[] = {
+    {.what = "what only resembles a vector",
+     .file = PLANE OF("u_err", " :units=1") OF("v_err", " :units=1") OF("uerr", SPEED)
+         OF("verr", SPEED) OF("ulon", " :units=degrees_east")
+             OF("vlon", " :units=degrees_east") OF("x", " :units=m") OF("y", " :units=m")
+                 OF("dx", " :units=m") OF("dy", " :units=m")
+                     OF("pm", " :units=meter-1 :standard_name=inverse_of_cell_x_size") OF(
+                         "pn", " :units=meter-1 :standard_name=inverse_of_cell_y_size")
+                         OF("a", " :units=m :standard_name=projection_x_coordinate")
+                             OF("b", " :units=m :standard_name=projection_y_coordinate")
+                                 OF("q1", " :standard_name=eastward_wind status_flag")
+                                     OF("q2", " :standard_name=northward_wind "
+                                              "status_flag") OF("u2", "") OF("w2", ""),
+     .inventory = "vectors 0"},
+    STANDARD("eastward_wind", "northward_wind"),
+    STANDARD("x_wind", "y_wind"),
+    STANDARD("grid_eastward_wind", "grid_northward_wind"),
+    STANDARD("eastward_sea_water_velocity", "northward_sea_water_velocity"),
+    STANDARD("sea_water_x_velocity", "sea_water_y_velocity"),
+    STANDARD("sea_water_x_velocity_at_u_location", "sea_water_y_velocity_at_v_location"),
+    STANDARD("surface_eastward_sea_water_velocity",
+             "surface_northward_sea_water_velocity"),
+    STANDARD("barotropic_eastward_sea_water_velocity",
+             "barotropic_northward_sea_water_velocity"),
+    STANDARD("surface_geostrophic_eastward_sea_water_velocity",
+             "surface_geostrophic_northward_sea_water_velocity"),
+    STANDARD("sea_surface_wave_stokes_drift_x_velocity",
+             "sea_surface_wave_stokes_drift_y_velocity"),
+    STANDARD("eastward_sea_ice_velocity", "northward_sea_ice_velocity"),
+    STANDARD("sea_ice_x_velocity", "sea_ice_y_velocity"),
+    STANDARD("surface_downward_eastward_stress", "surface_downward_northward_stress"),
+    {.what = "lengths, which otherwise are places",
+     .file = PLANE OF("dX", " :units=km :standard_name=sea_ice_x_displacement")
+         OF("dY", " :units=km :standard_name=sea_ice_y_displacement"),
+     .inventory = "vectors 1|[dX,dY "},
+    {.what = "heights of one standard name are told apart",
+     .file = PLANE WINDS("10") WINDS("100"),
+     .inventory = "vectors 2|[u10,v10 |[u100,v100 ",
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "u10,v10; u100,v100",
+     .hint = "--vars"},
+    {.what = "one of them",
+     .options = {.vars = "u100,v100"},
+     .field = "name 'u100'|name 'v100'"},
+    {.what = "one of them in the wrong order",
+     .options = {.vars = "v100,u100"},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "'v100' is the second component",
+     .hint = "--vars u100,v100"},
+    FIRST("p", U_V OF("p", EASTWARD) OF("q", NORTHWARD)),
+    FIRST("u",
+          OF("p", " :units=Pa :standard_name=surface_downward_eastward_stress")
+              OF("q", " :units=Pa :standard_name=surface_downward_northward_stress") U_V),
+    FIRST("u", OF("tx", " :units=N m-2") OF("ty", " :units=N m-2") U_V),
+    /* Arakawa's C grid is listed with the reason, and no other kind of vector is read */
+    {.what = "a staggered pair without coordinates of centres",
+     .file = "y[3] :units=m = 1 2 3; yv[2] :units=m = 1 2; x[4] :units=m = 1 2 3 4; "
+             "xu[3] :units=m = 1 2 3; float u(y,xu); float v(yv,x); float taux(y,x) "
+             ":units=Pa m; float tauy(y,x) :units=Pa m",
+     .inventory = "vectors 2\n[u,v |unusable |'u' is 3 x 3, 'v' is 2 x 4|[taux,tauy ",
+     .refused = "staggered"},
+    {.what = "the other of its file",
+     .options = {.vars = "taux,tauy"},
+     .inventory = "vectors 1\n[taux,tauy |!unusable"},
+    {.what = "equal sizes at different places",
+     .file = "y[3] :units=m = 1 2 3; x[3] :units=m = 1 2 3; xu[3] :units=m = 1.5 2.5 "
+             "3.5; float u(y,xu); float v(y,x)",
+     .refused = "'xu'"},
 
-static void read_first_name(sample_file *f, char *out, size_t size)
-{
-  fg_field *field = NULL;
-  fg_context_clear(f->context);
-  if (fg_field_read(&field, f->context, f->path, NULL) != FG_STATUS_OK)
-    fail_msg("%s", fg_context_message(f->context));
-  snprintf(out, size, "%s", fg_field_contents(field)->velocity_name[0]);
-  fg_field_destroy(field);
-}
+    /* as NEMO, MPAS-Ocean, FVCOM, WRF, POP, ROMS and altimetry's products write them */
+    TITLE("long_name", "Ocean current along i-axis", "Ocean current along j-axis",
+          "Ocean current"),
+    TITLE("long_name", "component of horizontal velocity in the eastward direction",
+          "component of horizontal velocity in the northward direction",
+          "horizontal velocity"),
+    TITLE("long_name", "Vertically Averaged x-velocity", "Vertically Averaged y-velocity",
+          "Vertically Averaged velocity"),
+    TITLE("description", "x-wind component", "y-wind component", "wind"),
+    TITLE("description", "U at 10 M", "V at 10 M", "the file"),
+    TITLE("long_name", "Velocity in grid-x direction", "Velocity in grid-y direction",
+          "Velocity"),
+    TITLE("long_name", "u-momentum component", "v-momentum component", "the file"),
+    TITLE("long_name", "vertically integrated u-momentum component",
+          "vertically integrated v-momentum component", "vertically integrated momentum"),
+    TITLE("long_name", "Absolute geostrophic velocity: zonal component",
+          "Absolute geostrophic velocity: meridian component",
+          "Absolute geostrophic velocity"),
+    TITLE("standard_name", "grid_eastward_wind", "grid_northward_wind", "wind"),
+    TITLE("long_name", "Wind speed to the east", "Wind speed to the north", "Wind speed"),
+    /* numbers for dates differ in their last digits; the unit "level" (CESM) says
+       nothing */
+    {.what = "numbers of times and levels",
+     .file = "time[1] :units=yyyymmdd = 19900101; lev[1] :units=level = 992.5;" PLANE
+             "float u(time,lev,lat,lon) = 1 2 3 4; float v(time,lev,lat,lon) = 1 2 3 4",
+     .field = "time 'time 19900101 yyyymmdd'|level 'lev 992.5'"},
+};
 
-/* Standard names take precedence over names, velocities over other vectors. */
-static void the_better_evidence_wins(void **state)
-{
-  static const declared standard[] = {{"u", NULL, "m/s"},
-                                      {"v", NULL, "m/s"},
-                                      {"p", "eastward_wind", "m/s"},
-                                      {"q", "northward_wind", "m/s"}};
-  static const declared stress[] = {{"p", "surface_downward_eastward_stress", "Pa"},
-                                    {"q", "surface_downward_northward_stress", "Pa"},
-                                    {"u", NULL, "m/s"},
-                                    {"v", NULL, "m/s"}};
-  static const declared units[] = {{"tx", NULL, "N m-2"},
-                                   {"ty", NULL, "N m-2"},
-                                   {"u", NULL, "m/s"},
-                                   {"v", NULL, "m/s"}};
-  char name[32];
-  make(*state, standard, 4);
-  read_first_name(*state, name, sizeof name);
-  assert_string_equal(name, "p");
-  make(*state, stress, 4);
-  read_first_name(*state, name, sizeof name);
-  assert_string_equal(name, "u");
-  make(*state, units, 4);
-  read_first_name(*state, name, sizeof name);
-  assert_string_equal(name, "u");
-}
-
-/* Arakawa's C grid: listed with the reason, and no other kind of vector replaces it. */
-static void staggered_pairs_are_listed_as_unusable(void **state)
-{
-  sample_file *f = *state;
-  static const double axis[4] = {1.0, 2.0, 3.0, 4.0};
-  sample_begin(f, 0);
-  const int y = sample_axis(f, "y", 3, axis, "m");
-  const int y_v = sample_axis(f, "yv", 2, axis, "m");
-  const int x = sample_axis(f, "x", 4, axis, "m");
-  const int x_u = sample_axis(f, "xu", 3, axis, "m");
-  sample_variable(f, "u", NC_FLOAT, 2, (int[]){y, x_u});
-  sample_variable(f, "v", NC_FLOAT, 2, (int[]){y_v, x});
-  const int stress[2] = {sample_variable(f, "taux", NC_FLOAT, 2, (int[]){y, x}),
-                         sample_variable(f, "tauy", NC_FLOAT, 2, (int[]){y, x})};
-  sample_text(f, stress[0], "units", "Pa m");
-  sample_text(f, stress[1], "units", "Pa m");
-  sample_end(f);
-  fg_inventory *inventory = NULL;
-  assert_int_equal(fg_inventory_read(&inventory, f->context, f->path), FG_STATUS_OK);
-  assert_int_equal(fg_inventory_vector_count(inventory), 2);
-  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
-  assert_string_equal(v->name[0], "u");
-  assert_non_null(v->unusable);
-  assert_non_null(strstr(v->unusable, "'u' is 3 x 3, 'v' is 2 x 4"));
-  assert_null(fg_inventory_vector_at(inventory, 1)->unusable);
-  fg_inventory_destroy(inventory);
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_read(&field, f->context, f->path, NULL),
-                   FG_STATUS_UNSUPPORTED);
-  assert_non_null(strstr(fg_context_message(f->context), "staggered"));
-}
-
-/* Equal sizes at different places. */
-static void places_matter_not_only_sizes(void **state)
-{
-  sample_file *f = *state;
-  static const double axis[3] = {1.0, 2.0, 3.0};
-  static const double shifted[3] = {1.5, 2.5, 3.5};
-  sample_begin(f, 0);
-  const int y = sample_axis(f, "y", 3, axis, "m");
-  const int x = sample_axis(f, "x", 3, axis, "m");
-  const int x_u = sample_axis(f, "xu", 3, shifted, "m");
-  sample_variable(f, "u", NC_FLOAT, 2, (int[]){y, x_u});
-  sample_variable(f, "v", NC_FLOAT, 2, (int[]){y, x});
-  sample_end(f);
-  fg_field *field = NULL;
-  assert_int_equal(fg_field_read(&field, f->context, f->path, NULL),
-                   FG_STATUS_UNSUPPORTED);
-  assert_non_null(strstr(fg_context_message(f->context), "'xu'"));
-}
-
-int main(void)
-{
-#define CASE(name) cmocka_unit_test_setup_teardown(name, sample_set_up, sample_tear_down)
-  const struct CMUnitTest tests[] = {
-      CASE(what_only_resembles_a_vector_is_not_one),
-      CASE(standard_names_are_paired),
-      CASE(heights_of_one_standard_name_are_told_apart),
-      CASE(the_better_evidence_wins),
-      CASE(staggered_pairs_are_listed_as_unusable),
-      CASE(places_matter_not_only_sizes),
-  };
-  return cmocka_run_group_tests_name("read/netcdf/pairs", tests, NULL, NULL);
-}
+SITUATIONS_MAIN("read/netcdf/pairs", SITUATIONS)

@@ -1,7 +1,7 @@
 /* Speeds and directions: their components are those that a file of components has, on
  * every kind of grid. */
 #include "base/context_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 #include <math.h>
 

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { SIDE = 20, GAP_AT = 9 };
 

@@ -1,5 +1,5 @@
 #include "decode/source.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { NX = 5, NY = 3, RECORDS = 2, COUNT = NX * NY };
 

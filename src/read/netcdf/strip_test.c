@@ -1,6 +1,6 @@
 /* The longitude-latitude grid to which samples of a thin mesh are interpolated. */
 #include "base/context_test.h"
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { SIDE = 5, POINTS = SIDE * SIDE };
 

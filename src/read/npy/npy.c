@@ -13,9 +13,7 @@ static const fg__dataset_format FORMAT = {
 
 FG__DATASET_HOOKS(FORMAT)
 
-#define HOOKS                                                                            \
-  .inventory = inventory_hook, .inventory_chosen = chosen_hook,                          \
-  .defaults = defaults_hook, .read = read_hook, .sphere = sphere_hook
+#define HOOKS .inventory = inventory_hook, .read = read_hook, .sphere = sphere_hook
 
 const fg__format fg__format_npy = {.name = "NumPy array",
                                    .files = "NumPy's arrays (.npy, .npz)",

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "read/situation_test.h"
 #include "read/table/tables_test.h"
 
 enum { N = 5, TEXT_BYTES = 1 << 14 };
@@ -60,144 +61,96 @@ static void equal_layers_are_a_plane(void **state)
   }
 }
 
-static bool is_known(const fg_field *field, double x, double y, double u)
-{
-  double velocity[3] = {0.0, 0.0, 0.0};
-  const bool known = fg_field_velocity(field, (const double[]){x, y, 0.0}, velocity);
-  assert_true(!known || fabs(velocity[0] - u) < 1e-4);
-  return known;
-}
+/* Five lines at 0 to 4 and five more, u = the place across them. */
+#define FIVE(row, b) row("0", b) row("1", b) row("2", b) row("3", b) row("4", b)
+#define UPWARD(a, b) a "," b "," a ",1\n"
+#define ALONG(a, b) b "," a "," a ",1\n"
+#define LINES(row, v, w, x, y, z)                                                        \
+  "x,y,u,v\n" ROW(row, "0", v, w, x, y, z) ROW(row, "1", v, w, x, y, z)                  \
+      ROW(row, "2", v, w, x, y, z) ROW(row, "3", v, w, x, y, z)                          \
+          ROW(row, "4", v, w, x, y, z)
+#define ROW(row, b, v, w, x, y, z)                                                       \
+  FIVE(row, b) row(v, b) row(w, b) row(x, b) row(y, b) row(z, b)
 
-/* Lines at 0 to 4 and from `second` on. */
-static void grids_are_not_read_across_gaps(void **state)
-{
-  static const struct {
-    double second, step;
-    bool turned, gap;
-  } cases[] = {
-      {40.0, 1.0, false, true}, {40.0, 1.25, true, true}, {7.0, 1.5, false, false}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[TEXT_BYTES];
-    size_t used = (size_t)snprintf(text, sizeof text, "x,y,u,v\n");
-    for (int n = 0; n < 2 * N * N; ++n) {
-      const int line = n % (2 * N);
-      const double a = line < N ? line : cases[i].second + cases[i].step * (line - N);
-      const double b = (double)(n / (2 * N));
-      used += (size_t)snprintf(text + used, sizeof text - used, "%g,%g,%g,1\n",
-                               cases[i].turned ? b : a, cases[i].turned ? a : b, a);
-    }
-    fg_field *field = read_text(*state, text);
-    const double inside[] = {3.5, cases[i].second + 0.5},
-                 between = 0.5 * (4.0 + cases[i].second);
-    for (int k = 0; k < 2; ++k)
-      assert_true(cases[i].turned ? is_known(field, 1.5, inside[k], inside[k])
-                                  : is_known(field, inside[k], 1.5, inside[k]));
-    assert_int_equal(cases[i].turned ? is_known(field, 1.5, between, between)
-                                     : is_known(field, between, 1.5, between),
-                     !cases[i].gap);
-    fg_field_destroy(field);
+/* u = x + 2 y in a square of 2 x 2 without its upper right quarter */
+#define L_SHAPED(what_, text_)                                                           \
+  {                                                                                      \
+    .what = what_, .text = text_,                                                        \
+    .field = "linear 0 1 2 1 0 0|at 0.5 0.25 = 1 1|at 1.5 0.5 = 2.5 1|at 0.75 1.5 = "    \
+             "3.75 1|at 1.5 1.5 = none"                                                  \
   }
-}
-
-/* u = x + 2 y in a square of 2 x 2 without its upper right quarter. */
-static void zones_of_cells_are_meshes(void **state)
-{
-  static const char *const cases[] = {
-      /* two ordered zones, by points */
-      "TITLE = \"an L\"\nVARIABLES = \"X\" \"Y\" \"U\" \"V\"\nZONE I=3, J=2\n0 0 0 1\n1 "
-      "0 1 1\n"
-      "2 0 2 1\n0 1 2 1\n1 1 3 1\n2 1 4 1\nZONE T=\"upper\" I=2 J=2\n0 1 2 1\n1 1 3 1\n0 "
-      "2 4 1\n"
-      "1 2 5 1\n",
-      /* by variables */
-      "VARIABLES = X, Y, U, V\nZONE I=3, J=2, DATAPACKING=BLOCK\n0 1 2 0 1 2\n0 0 0 1 1 "
-      "1\n"
-      "0 1 2 2 3 4\n6*1\nZONE I=2, J=2, F=BLOCK\n0 1 0 1\n1 1 2 2\n2 3 4 5\n4*1\n",
-      /* finite elements */
-      "VARIABLES = X Y U V\nZONE N=8, E=3, F=FEPOINT, ET=QUADRILATERAL\n0 0 0 1\n1 0 1 "
-      "1\n2 0 2 1\n"
-      "0 1 2 1\n1 1 3 1\n2 1 4 1\n0 2 4 1\n1 2 5 1\n1 2 5 4\n2 3 6 5\n4 5 8 7\n",
-      "# of triangles\nVARIABLES = X Y U V\nZONE NODES=8, ELEMENTS=6, "
-      "DATAPACKING=BLOCK,\n"
-      " ZONETYPE=FETRIANGLE\n0 1 2 0 1 2 0 1\n0 0 0 1 1 1 2 2\n0 1 2 2 3 4 4 5\n8*1.0\n"
-      "1 2 5\n1 5 4\n2 3 6\n2 6 5\n4 5 8\n4 8 7\n",
-  };
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    fg_field *field = read_text(*state, cases[i]);
-    assert_true(is_known(field, 0.5, 0.25, 1.0) && is_known(field, 1.5, 0.5, 2.5) &&
-                is_known(field, 0.75, 1.5, 3.75));
-    assert_false(is_known(field, 1.5, 1.5, 4.5));
-    fg_field_destroy(field);
+#define DAMAGED(zone, status_, words)                                                    \
+  {                                                                                      \
+    .what = words, .text = "VARIABLES = x y u v\n" zone, .status = status_,              \
+    .refused = words                                                                     \
   }
-}
 
-static void zones_may_have_values_at_cells_or_times(void **state)
-{
-  static const char cells[] =
-      "VARIABLES = X Y U V\nZONE N=8, E=3, DATAPACKING=BLOCK, ZONETYPE=FEQUADRILATERAL\n"
-      "VARLOCATION=([3-4]=CELLCENTERED)\n0 1 2 0 1 2 0 1\n0 0 0 1 1 1 2 2\n3 3 3\n1 1 1\n"
-      "1 2 5 4\n2 3 6 5\n4 5 8 7\n";
-  static const char times[] = "VARIABLES = X Y U V\nZONE I=2 J=2 SOLUTIONTIME=0.5 "
-                              "STRANDID=1\n0 0 1 1\n1 0 1 1\n0 1 1 1\n"
-                              "1 1 1 1\nZONE I=2 J=2 SOLUTIONTIME=1.5 STRANDID=1\n0 0 7 "
-                              "1\n1 0 7 1\n0 1 7 1\n1 1 7 1\n";
-  fg_field *field = read_text(*state, cells);
-  assert_true(is_known(field, 1.0, 0.5, 3.0));
-  fg_field_destroy(field);
-  for (int time = 0; time < 2; ++time) {
-    field = read_with(*state, times, &(fg_read_options){.time = time});
-    assert_string_equal(fg_field_contents(field)->time, time ? "time 1.5" : "time 0.5");
-    assert_true(is_known(field, 0.5, 0.5, time ? 7.0 : 1.0));
-    fg_field_destroy(field);
-  }
-}
+static const situation SITUATIONS[] = {
+    {.what = "a gap between columns",
+     .text = LINES(UPWARD, "40", "41", "42", "43", "44"),
+     .field = "at 3.5 1.5 = 3.5 1|at 40.5 1.5 = 40.5 1|at 22 1.5 = none"},
+    {.what = "a gap between rows",
+     .text = LINES(ALONG, "40", "41.25", "42.5", "43.75", "45"),
+     .field = "at 1.5 3.5 = 3.5 1|at 1.5 40.5 = 40.5 1|at 1.5 22 = none"},
+    {.what = "a step that is no gap",
+     .text = LINES(UPWARD, "7", "8.5", "10", "11.5", "13"),
+     .field = "at 3.5 1.5 = 3.5 1|at 7.5 1.5 = 7.5 1|at 5.5 1.5 = 5.5 1"},
+    L_SHAPED("two ordered zones, by points",
+             "TITLE = \"an L\"\nVARIABLES = \"X\" \"Y\" \"U\" \"V\"\nZONE I=3, J=2\n0 0 "
+             "0 1\n1 0 1 1\n2 0 2 1\n0 1 2 1\n1 1 3 1\n2 1 4 1\nZONE T=\"upper\" I=2 "
+             "J=2\n0 1 2 1\n1 1 3 1\n0 2 4 1\n1 2 5 1\n"),
+    L_SHAPED("two ordered zones, by variables",
+             "VARIABLES = X, Y, U, V\nZONE I=3, J=2, DATAPACKING=BLOCK\n0 1 2 0 1 2\n0 0 "
+             "0 1 1 1\n0 1 2 2 3 4\n6*1\nZONE I=2, J=2, F=BLOCK\n0 1 0 1\n1 1 2 2\n2 3 4 "
+             "5\n4*1\n"),
+    L_SHAPED(
+        "quadrilaterals",
+        "VARIABLES = X Y U V\nZONE N=8, E=3, F=FEPOINT, ET=QUADRILATERAL\n0 0 0 1\n1 "
+        "0 1 1\n2 0 2 1\n0 1 2 1\n1 1 3 1\n2 1 4 1\n0 2 4 1\n1 2 5 1\n1 2 5 4\n2 3 6 "
+        "5\n4 5 8 7\n"),
+    L_SHAPED("triangles",
+             "# of triangles\nVARIABLES = X Y U V\nZONE NODES=8, ELEMENTS=6, "
+             "DATAPACKING=BLOCK,\n ZONETYPE=FETRIANGLE\n0 1 2 0 1 2 0 1\n0 0 0 1 1 1 2 "
+             "2\n0 1 2 2 3 4 4 5\n8*1.0\n1 2 5\n1 5 4\n2 3 6\n2 6 5\n4 5 8\n4 8 7\n"),
+    {.what = "values at cells",
+     .text = "VARIABLES = X Y U V\nZONE N=8, E=3, DATAPACKING=BLOCK, "
+             "ZONETYPE=FEQUADRILATERAL\nVARLOCATION=([3-4]=CELLCENTERED)\n0 1 2 0 1 2 0 "
+             "1\n0 0 0 1 1 1 2 2\n3 3 3\n1 1 1\n1 2 5 4\n2 3 6 5\n4 5 8 7\n",
+     .field = "at 1 0.5 = 3 1"},
+    {.what = "zones at times",
+     .text =
+         "VARIABLES = X Y U V\nZONE I=2 J=2 SOLUTIONTIME=0.5 STRANDID=1\n0 0 1 1\n1 0 "
+         "1 1\n0 1 1 1\n1 1 1 1\nZONE I=2 J=2 SOLUTIONTIME=1.5 STRANDID=1\n0 0 7 1\n1 "
+         "0 7 1\n0 1 7 1\n1 1 7 1\n",
+     .field = "time 'time 0.5'|at 0.5 0.5 = 1 1"},
+    {.what = "the second time",
+     .options = {.time = 1},
+     .field = "time 'time 1.5'|at 0.5 0.5 = 7 1"},
+    /* nodes of bricks on a grid are a volume's */
+    {.what = "a zone in space",
+     .text =
+         "VARIABLES = X Y Z U V W\nZONE N=12, E=2, F=FEPOINT, ET=BRICK\n0 0 0 1 1 "
+         "1\n1 0 0 1 1 1\n2 0 0 1 1 1\n0 1 0 1 2 1\n1 1 0 1 2 1\n2 1 0 1 2 1\n0 0 1 2 "
+         "1 1\n1 0 1 2 1 1\n2 0 1 2 1 1\n0 1 1 2 2 1\n1 1 1 2 2 1\n2 1 1 2 2 1\n1 2 5 "
+         "4 7 8 11 10\n2 3 6 5 8 9 12 11\n",
+     .field = " 3 x 2 x 2\n|u = 1 1 1 1 1 1 2 2 2 2 2 2\n"},
+    DAMAGED("ZONE N=4 E=1 F=FEBLOCK ET=POLYGON\n1 2\n", FG_STATUS_UNSUPPORTED,
+            "a Tecplot zone of POLYGON"),
+    DAMAGED("ZONE I=2 J=2 F=BLOCK VARSHARELIST=([1,2]=1)\n1 2\n", FG_STATUS_UNSUPPORTED,
+            "with VARSHARELIST"),
+    DAMAGED("ZONE I=2 J=2 F=BLOCK\n0 1 0 1\n0 0 1 1\n1 2 3 4\n1 2 3\n",
+            FG_STATUS_FILE_FORMAT, "is no number: "),
+    DAMAGED("ZONE I=2 J=2 F=BLOCK\n0 1 0 1\n0 0 x 1\n1 2 3 4\n1 2 3 4\n",
+            FG_STATUS_FILE_FORMAT, "line 4: is no number: x"),
+    DAMAGED("ZONE N=3 E=1 F=FEPOINT ET=TRIANGLE\n0 0 1 1\n1 0 1 1\n0 1 1 1\n1 2 4\n",
+            FG_STATUS_FILE_FORMAT, "a cell with a corner that is no node"),
+    DAMAGED("ZONE N=99999999 E=1 F=FEPOINT ET=TRIANGLE\n0 0 1 1\n", FG_STATUS_FILE_FORMAT,
+            "more points than the file"),
+};
 
-/* Nodes of bricks on a grid are a volume's. */
-static void zones_in_space_are_points(void **state)
+static void shapes_are_read_or_refused(void **state)
 {
-  static const char text[] =
-      "VARIABLES = X Y Z U V W\nZONE N=12, E=2, F=FEPOINT, ET=BRICK\n0 0 0 1 1 1\n1 0 0 "
-      "1 1 1\n"
-      "2 0 0 1 1 1\n0 1 0 1 2 1\n1 1 0 1 2 1\n2 1 0 1 2 1\n0 0 1 2 1 1\n1 0 1 2 1 1\n2 0 "
-      "1 2 1 1\n"
-      "0 1 1 2 2 1\n1 1 1 2 2 1\n2 1 1 2 2 1\n1 2 5 4 7 8 11 10\n2 3 6 5 8 9 12 11\n";
-  fg_field *field = read_text(*state, text);
-  const fg_field_arrays *f = fg_field_contents(field);
-  assert_true(f->dimension == 3 && f->size[0] == 3 && f->size[1] == 2 && f->size[2] == 2);
-  for (int n = 0; n < 12; ++n)
-    assert_true(f->velocity[0][n] == (n < 6 ? 1.0f : 2.0f));
-  fg_field_destroy(field);
-}
-
-static void damaged_zones_are_told(void **state)
-{
-  static const struct {
-    const char *zone, *words;
-  } cases[] = {
-      {"ZONE N=4 E=1 F=FEBLOCK ET=POLYGON\n1 2\n", "a Tecplot zone of POLYGON"},
-      {"ZONE I=2 J=2 F=BLOCK VARSHARELIST=([1,2]=1)\n1 2\n", "with VARSHARELIST"},
-      {"ZONE I=2 J=2 F=BLOCK\n0 1 0 1\n0 0 1 1\n1 2 3 4\n1 2 3\n", "is no number: "},
-      {"ZONE I=2 J=2 F=BLOCK\n0 1 0 1\n0 0 x 1\n1 2 3 4\n1 2 3 4\n",
-       "line 4: is no number: x"},
-      {"ZONE N=3 E=1 F=FEPOINT ET=TRIANGLE\n0 0 1 1\n1 0 1 1\n0 1 1 1\n1 2 4\n",
-       "a cell with a corner that is no node"},
-      {"ZONE N=99999999 E=1 F=FEPOINT ET=TRIANGLE\n0 0 1 1\n",
-       "more points than the file"},
-  };
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[512];
-    snprintf(text, sizeof text, "VARIABLES = x y u v\n%s", cases[i].zone);
-    const fg__source source = source_of(text);
-    static const fg_read_options options = {0};
-    fg_field *field = NULL;
-    assert_int_not_equal(
-        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1}),
-        FG_STATUS_OK);
-    assert_null(field);
-    if (!strstr(fg_context_message(*state), cases[i].words))
-      fail_msg("\"%s\" lacks \"%s\"", fg_context_message(*state), cases[i].words);
-    fg_context_clear(*state);
-  }
+  check_texts(*state, SITUATIONS, sizeof SITUATIONS / sizeof *SITUATIONS);
 }
 
 /* Zones cut off anywhere are refused, or are those before. */
@@ -225,11 +178,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_layers_are_a_plane),
-      cmocka_unit_test(grids_are_not_read_across_gaps),
-      cmocka_unit_test(zones_of_cells_are_meshes),
-      cmocka_unit_test(zones_may_have_values_at_cells_or_times),
-      cmocka_unit_test(zones_in_space_are_points),
-      cmocka_unit_test(damaged_zones_are_told),
+      cmocka_unit_test(shapes_are_read_or_refused),
       cmocka_unit_test(zones_may_end_anywhere),
   };
   return cmocka_run_group_tests(tests, context_set_up, context_tear_down);

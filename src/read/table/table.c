@@ -13,7 +13,5 @@ const fg__format fg__format_table = {
     .files = "tables of points in text (.csv, .txt, .dat, .vec)",
     .is_mine = fg__is_table,
     .inventory = inventory_hook,
-    .inventory_chosen = chosen_hook,
-    .defaults = defaults_hook,
     .read = read_hook,
     .sphere = sphere_hook};

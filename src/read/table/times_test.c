@@ -1,65 +1,76 @@
-/* Times and levels of tables: columns that tell rows apart. */
+/* Times and levels of tables: columns that set rows apart. */
 #include <stdio.h>
 #include <string.h>
 
+#include "read/situation_test.h"
 #include "read/table/tables_test.h"
 
-/* Places that come again at other times; a time that is a text is no time, and points
- * that move are all read. */
-static void times_are_chosen(void **state)
+/* A grid of 3 x 2: x 1.5 2.5 3.5, y 10 20; u = x + y, v = -0.25; and another flow there.
+ */
+#define SMALL                                                                            \
+  " 3 x 2\n|x = 1.5 2.5 3.5\n|y = 10 20\n|u = 11.5 12.5 13.5 21.5 22.5 23.5\n|v = "      \
+  "-0.25 "                                                                               \
+  "-0.25 -0.25 -0.25 -0.25 -0.25\n"
+#define OTHER " 3 x 2\n|u = 1 2 3 4 5 6\n"
+
+static const situation SITUATIONS[] = {
+    {.what = "the first time",
+     .text = "t,x,y,u,v\n2,1.5,10,1,-1\n0.5,1.5,10,11.5,-.25\n0.5,2.5,10,12.5,-.25\n"
+             "0.5,3.5,10,13.5,-.25\n0.5,1.5,20,21.5,-.25\n0.5,2.5,20,22.5,-.25\n"
+             "0.5,3.5,20,23.5,-.25\n2,2.5,10,2,-1\n2,3.5,10,3,-1\n2,1.5,20,4,-1\n"
+             "2,2.5,20,5,-1\n2,3.5,20,6,-1\n",
+     .field = "time 't 0.5'|" SMALL},
+    {.what = "the second time", .options = {.time = 1}, .field = "time 't 2'|" OTHER},
+    {.what = "no third time",
+     .options = {.time = 2},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "'t' has 2: 0 to 1"},
+    {.what = "a time that is a text is no time",
+     .text = "time,x,y,u,v\n09:00,1.5,10,11.5,-.25\n09:01,2.5,10,12.5,-.25\n"
+             "09:02,3.5,10,13.5,-.25\n09:03,1.5,20,21.5,-.25\n09:04,2.5,20,22.5,-.25\n"
+             "09:05,3.5,20,23.5,-.25\n",
+     .field = SMALL},
+    {.what = "points that move are all read",
+     .text = "time,x,y,u,v\n1,1.5,10,11.5,-.25\n2,2.5,10,12.5,-.25\n3,3.5,10,13.5,-.25\n"
+             "4,1.5,20,21.5,-.25\n5,2.5,20,22.5,-.25\n6,3.5,20,23.5,-.25\n",
+     .field = SMALL},
+    {.what = "dates as ERDDAP writes them",
+     .text =
+         "time,longitude,latitude,u,v\nUTC,degrees_east,degrees_north,m s-1,m s-1\n"
+         "2014-01-31T12:30:00Z,1.5,10,1,-1\n2014-01-31T12:30:00Z,2.5,10,2,-1\n"
+         "2014-01-31T12:30:00Z,3.5,10,3,-1\n2014-01-31T12:30:00Z,1.5,20,4,-1\n"
+         "2014-01-31T12:30:00Z,2.5,20,5,-1\n2014-01-31T12:30:00Z,3.5,20,6,-1\n"
+         "2014-01-31T00:00:00Z,1.5,10,11.5,-.25\n2014-01-31T00:00:00Z,2.5,10,12.5,-."
+         "25\n2014-01-31T00:00:00Z,3.5,10,13.5,-.25\n2014-01-31T00:00:00Z,1.5,20,21.5,"
+         "-.25\n2014-01-31T00:00:00Z,2.5,20,22.5,-.25\n2014-01-31T00:00:00Z,3.5,20,23."
+         "5,-.25\n",
+     .field = "time '2014-01-31'|" SMALL},
+    {.what = "the second date",
+     .options = {.time = 1},
+     .field = "time '2014-01-31 12:30'|" OTHER},
+    /* planes one above another with two components are levels */
+    {.what = "the first level",
+     .text = "x,y,u,v,depth [m]\n1.5,10,1,0,50\n2.5,10,2,0,50\n3.5,10,3,0,50\n"
+             "1.5,20,4,0,50\n2.5,20,5,0,50\n3.5,20,6,0,50\n1.5,10,11.5,-.25,5\n2.5,10,12."
+             "5,-.25,5\n3.5,10,13.5,-.25,5\n1.5,20,21.5,-.25,5\n2.5,20,22.5,-.25,5\n3.5,"
+             "20,23.5,-.25,5\n",
+     .field = "level 'depth 5 m'|" SMALL,
+     .inventory = "levels 2\n|' 5 'm'|' 50 'm'"},
+    {.what = "the second level",
+     .options = {.level = 1},
+     .field = "level 'depth 50 m'|" OTHER},
+    {.what = "no third level",
+     .options = {.level = 2},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "level 2 asked for"},
+};
+
+static void times_and_levels_are_chosen(void **state)
 {
-  static const char several[] =
-      "t,x,y,u,v\n2,1.5,10,1,-1\n0.5,1.5,10,11.5,-.25\n0.5,2.5,10,12.5,-.25\n"
-      "0.5,3.5,10,13.5,-.25\n0.5,1.5,20,21.5,-.25\n0.5,2.5,20,22.5,-.25\n"
-      "0.5,3.5,20,23.5,-.25\n2,2.5,10,2,-1\n2,3.5,10,3,-1\n2,1.5,20,4,-1\n"
-      "2,2.5,20,5,-1\n2,3.5,20,6,-1\n";
-  static const char *const single[] = {
-      "time,x,y,u,v\n09:00,1.5,10,11.5,-.25\n09:01,2.5,10,12.5,-.25\n"
-      "09:02,3.5,10,13.5,-.25\n09:03,1.5,20,21.5,-.25\n09:04,2.5,20,22.5,-.25\n"
-      "09:05,3.5,20,23.5,-.25\n",
-      "time,x,y,u,v\n1,1.5,10,11.5,-.25\n2,2.5,10,12.5,-.25\n3,3.5,10,13.5,-.25\n"
-      "4,1.5,20,21.5,-.25\n5,2.5,20,22.5,-.25\n6,3.5,20,23.5,-.25\n"};
-  fg_field *field = read_text(*state, several);
-  assert_string_equal(fg_field_contents(field)->time, "t 0.5");
-  check_small(field, -1);
-  field = read_with(*state, several, &(fg_read_options){.time = 1});
-  assert_string_equal(fg_field_contents(field)->time, "t 2");
-  for (int n = 0; n < 6; ++n)
-    assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
-  fg_field_destroy(field);
-  for (size_t i = 0; i < 2; ++i)
-    check_small(read_text(*state, single[i]), -1);
-  const fg__source source = source_of(several);
-  assert_int_equal(fg__format_table.read(&field, *state, &source,
-                                         &(fg_read_options){.time = 2},
-                                         (fg__slab_index){0, 1}),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "'t' has 2: 0 to 1"));
-  fg_context_clear(*state);
+  check_texts(*state, SITUATIONS, sizeof SITUATIONS / sizeof *SITUATIONS);
 }
 
-/* ISO 8601's dates are times as well, as ERDDAP writes them. */
-static void dates_are_chosen(void **state)
-{
-  static const char text[] =
-      "time,longitude,latitude,u,v\nUTC,degrees_east,degrees_north,m s-1,m s-1\n"
-      "2014-01-31T12:30:00Z,1.5,10,1,-1\n2014-01-31T12:30:00Z,2.5,10,2,-1\n"
-      "2014-01-31T12:30:00Z,3.5,10,3,-1\n2014-01-31T12:30:00Z,1.5,20,4,-1\n"
-      "2014-01-31T12:30:00Z,2.5,20,5,-1\n2014-01-31T12:30:00Z,3.5,20,6,-1\n"
-      "2014-01-31T00:00:00Z,1.5,10,11.5,-.25\n2014-01-31T00:00:00Z,2.5,10,12.5,-.25\n"
-      "2014-01-31T00:00:00Z,3.5,10,13.5,-.25\n2014-01-31T00:00:00Z,1.5,20,21.5,-.25\n"
-      "2014-01-31T00:00:00Z,2.5,20,22.5,-.25\n2014-01-31T00:00:00Z,3.5,20,23.5,-.25\n";
-  static const char *const words[] = {"2014-01-31", "2014-01-31 12:30"};
-  for (int k = 0; k < 2; ++k) {
-    fg_field *field = read_with(*state, text, &(fg_read_options){.time = k});
-    assert_string_equal(fg_field_contents(field)->time, words[k]);
-    assert_true(fg_field_contents(field)->velocity[0][5] == (k ? 6.0f : 23.5f));
-    fg_field_destroy(field);
-  }
-}
-
-/* Rows of so many places each, at two heights; of one height they lie over each other or
- * side by side. */
+/* Rows at two heights, which lie over each other or side by side. */
 static void write_soundings(char *text, size_t size, int rows, bool side_by_side)
 {
   size_t used = (size_t)snprintf(text, size, "x,y,height,u,v\n");
@@ -71,61 +82,20 @@ static void write_soundings(char *text, size_t size, int rows, bool side_by_side
   }
 }
 
-static void levels_are_told_by_their_scatter(void **state)
+static void levels_are_found_by_their_scatter(void **state)
 {
-  static const struct {
-    int rows;
-    bool side_by_side;
-    int levels;
-    const char *told; /* of the rows; NULL: nothing */
-  } cases[] = {{8, false, 2, NULL},
-               {7, false, 1, "rows of every height, 0 to 100, are one field"},
-               {8, true, 1, "rows of every height, 0 to 100, are one field"}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[1024];
-    write_soundings(text, sizeof text, cases[i].rows, cases[i].side_by_side);
-    const fg__source source = source_of(text);
-    fg_inventory *inventory = NULL;
-    assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-    assert_int_equal(fg__format_table.inventory(inventory, *state, &source),
-                     FG_STATUS_OK);
-    const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
-    assert_int_equal(v->levels, cases[i].levels);
-    assert_int_equal(v->doubts != NULL, cases[i].told != NULL);
-    assert_true(!cases[i].told || strcmp(v->doubts, cases[i].told) == 0);
-    fg_inventory_destroy(inventory);
-  }
-}
-
-/* Planes one above another with two components are levels. */
-static void levels_are_chosen(void **state)
-{
-  static const char text[] =
-      "x,y,u,v,depth [m]\n1.5,10,1,0,50\n2.5,10,2,0,50\n3.5,10,3,0,50\n1.5,20,4,0,50\n"
-      "2.5,20,5,0,50\n3.5,20,6,0,50\n1.5,10,11.5,-.25,5\n2.5,10,12.5,-.25,5\n"
-      "3.5,10,13.5,-.25,5\n1.5,20,21.5,-.25,5\n2.5,20,22.5,-.25,5\n3.5,20,23.5,-.25,5\n";
-  fg_field *field = read_text(*state, text);
-  assert_string_equal(fg_field_contents(field)->level, "depth 5 m");
-  check_small(field, -1);
-  field = read_with(*state, text, &(fg_read_options){.level = 1});
-  for (int n = 0; n < 6; ++n)
-    assert_true(fg_field_contents(field)->velocity[0][n] == (float)(n + 1));
-  fg_field_destroy(field);
-  const fg__source source = source_of(text);
-  fg_inventory *inventory = NULL;
-  assert_int_equal(fg__inventory_create(&inventory, *state, "table"), FG_STATUS_OK);
-  assert_int_equal(fg__format_table.inventory(inventory, *state, &source), FG_STATUS_OK);
-  const fg_inventory_vector *v = fg_inventory_vector_at(inventory, 0);
-  assert_int_equal(v->levels, 2);
-  assert_true(v->level_value[0].value == 5.0 && v->level_value[1].value == 50.0);
-  assert_string_equal(v->level_value[1].units, "m");
-  fg_inventory_destroy(inventory);
-  assert_int_equal(fg__format_table.read(&field, *state, &source,
-                                         &(fg_read_options){.level = 2},
-                                         (fg__slab_index){0, 1}),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "level 2 asked for"));
-  fg_context_clear(*state);
+  static const char ONE_FIELD[] =
+      "levels 1\n|doubts 'rows of every height, 0 to 100, are one field'";
+  char text[1024];
+  write_soundings(text, sizeof text, 8, false);
+  check_text(*state, &(situation){.what = "eight over each other",
+                                  .text = text,
+                                  .inventory = "levels 2\n|!doubts"});
+  write_soundings(text, sizeof text, 7, false);
+  check_text(*state, &(situation){.what = "seven", .text = text, .inventory = ONE_FIELD});
+  write_soundings(text, sizeof text, 8, true);
+  check_text(*state,
+             &(situation){.what = "side by side", .text = text, .inventory = ONE_FIELD});
 }
 
 /* What is kept of one time is not taken for another, whose levels differ. */
@@ -163,10 +133,8 @@ static void each_time_has_its_own_levels(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(times_are_chosen),
-      cmocka_unit_test(dates_are_chosen),
-      cmocka_unit_test(levels_are_told_by_their_scatter),
-      cmocka_unit_test(levels_are_chosen),
+      cmocka_unit_test(times_and_levels_are_chosen),
+      cmocka_unit_test(levels_are_found_by_their_scatter),
       cmocka_unit_test(each_time_has_its_own_levels),
   };
   return cmocka_run_group_tests(tests, context_set_up, context_tear_down);

@@ -19,8 +19,6 @@ static fg_status tensors_hook(fg_field *row[2], bool *found, fg_context *context
 const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
                                           .is_mine = fg__is_vtk_legacy,
                                           .inventory = inventory_hook,
-                                          .inventory_chosen = chosen_hook,
-                                          .defaults = defaults_hook,
                                           .sphere = sphere_hook,
                                           .read = read_hook,
                                           .tensors = tensors_hook};

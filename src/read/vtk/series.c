@@ -13,7 +13,5 @@ FG__DATASET_HOOKS(FORMAT)
 const fg__format fg__format_vtk_series = {.name = "VTK series",
                                           .is_mine = fg__is_vtk_series,
                                           .inventory = inventory_hook,
-                                          .inventory_chosen = chosen_hook,
-                                          .defaults = defaults_hook,
                                           .sphere = sphere_hook,
                                           .read = read_hook};

@@ -1,6 +1,7 @@
 /* Volumes in VTK XML files, and rectilinear grids. */
 #include <math.h>
 
+#include "read/situation_test.h"
 #include "read/vtk/vti_example.h"
 
 enum {
@@ -171,70 +172,64 @@ static void a_mask_leaves_its_points_out(void **state)
   fg_field_destroy(field);
 }
 
-/* Values of so many points. */
-#define WIDE "0 1 0 2 0 2"
+/* Values of that number of points. */
 #define EIGHTEEN "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9"
-#define VOLUME "0 2 0 2 0 2"
 #define TWENTYSEVEN EIGHTEEN " 1 2 3 4 5 6 7 8 9"
+#define IMAGE(extent, data)                                                              \
+  "<VTKFile type='ImageData'><ImageData WholeExtent='" extent "'><Piece Extent='" extent \
+  "'>" data "</Piece></ImageData></VTKFile>"
+#define VOLUME(data) IMAGE("0 2 0 2 0 2", POINTS(data))
+#define ONE_OF(name) SCALAR(name, TWENTYSEVEN)
 
-static void three_scalars_are_a_vector(void **state)
+#define AXES(x, y, z)                                                                    \
+  "<Coordinates>" SCALAR("a", x) SCALAR("b", y) SCALAR("c", z) "</Coordinates>"
+#define RIGHT(axes)                                                                      \
+  "<VTKFile type='RectilinearGrid'><RectilinearGrid WholeExtent='2 5 0 1 7 7'><Piece "   \
+  "Extent='2 4 0 1 7 7'>" POINTS(PAIR_OF("U", "1 1 2 2 3 3 4 4 5 5 6 6"))                \
+      AXES("0.5 1 4", "-1 2", "9") "</Piece><Piece Extent='4 5 0 1 7 7'>" POINTS(        \
+          PAIR_OF("U", "3 3 7 7 6 6 8 8")) axes "</Piece></RectilinearGrid></VTKFile>"
+#define WRONG(axes, words, status_)                                                      \
+  {                                                                                      \
+    .what = words, .text = RIGHT(axes), .status = status_, .refused = words              \
+  }
+
+static const situation SITUATIONS[] = {
+    {.what = "three scalars are a vector",
+     .text = VOLUME(ONE_OF("vel_z") ONE_OF("p") ONE_OF("vel_x") ONE_OF("vel_y")),
+     .field = " 3 x 3 x 3\n|name 'vel_x'\nx =|name 'vel_y'\ny =|name 'vel_z'\nz ="},
+    {.what = "three scalars by name",
+     .options = {.vars = "p,vel_x,vel_z"},
+     .field = "name 'p'\nx =|name 'vel_z'\nz ="},
+    {.what = "two scalars by name",
+     .options = {.vars = "vel_x,vel_y"},
+     .refused = "3 x 3 x 3 points needs three",
+     .hint = "--vars U,V,W"},
+    {.what = "two scalars",
+     .text = VOLUME(ONE_OF("u") ONE_OF("v")),
+     .refused = "needs three comp"},
+    {.what = "two vectors of three scalars and a pair",
+     .text = VOLUME(ONE_OF("cx") ONE_OF("cy") ONE_OF("cz") ONE_OF("bx") ONE_OF("by")
+                        ONE_OF("bz") ONE_OF("ax") ONE_OF("ay")),
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "2 vectors|cx,cy,cz; bx,by,bz"},
+    {.what = "two layers of points are a plane with a mean",
+     .text = IMAGE("0 1 0 2 0 2", POINTS(SCALAR("u", EIGHTEEN) SCALAR("v", EIGHTEEN))),
+     .field = " 3 x 3\n|u = 1.5 "},
+    {.what = "rectilinear grids have their own axes",
+     .text = RIGHT(AXES("4 4.25", "-1 2", "9")),
+     .field = " 4 x 2\n|x = 0.5 1 4 4.25\n|y = -1 2\n|u = 1 2 3 7 4 5 6 8\n"},
+    WRONG(AXES("4", "-1 2", "9"), "cut short", FG_STATUS_FILE_FORMAT),
+    WRONG(AXES("4 nan", "-1 2", "9"), "coordinate 3 of 4 along x", FG_STATUS_FILE_FORMAT),
+    WRONG(AXES("4 3", "-1 2", "9"), "does not ascend", FG_STATUS_ARGUMENT),
+    WRONG("", "0 arrays of coordinates", FG_STATUS_FILE_FORMAT),
+    WRONG("<Coordinates>" VECTOR("a", "1 2 3 4 5 6") SCALAR("b", "-1 2")
+              SCALAR("c", "9") "</Coordinates>",
+          "are vectors", FG_STATUS_FILE_FORMAT),
+};
+
+static void texts_are_read_or_refused(void **state)
 {
-  char file[EXAMPLE_FILE_BYTES];
-  fg_field *field = NULL;
-  example_image(file, "", VOLUME,
-                POINTS(SCALAR("vel_z", TWENTYSEVEN) SCALAR("p", TWENTYSEVEN)
-                           SCALAR("vel_x", TWENTYSEVEN) SCALAR("vel_y", TWENTYSEVEN)));
-  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
-  const fg_field_arrays *f = fg_field_contents(field);
-  assert_int_equal(f->dimension, 3);
-  assert_string_equal(f->velocity_name[0], "vel_x");
-  assert_string_equal(f->velocity_name[1], "vel_y");
-  assert_string_equal(f->velocity_name[2], "vel_z");
-  fg_field_destroy(field);
-
-  fg_read_options options = {.vars = "p,vel_x,vel_z"};
-  assert_int_equal(example_read_words(&field, *state, file, &options), FG_STATUS_OK);
-  assert_string_equal(fg_field_contents(field)->velocity_name[2], "vel_z");
-  fg_field_destroy(field);
-
-  options.vars = "vel_x,vel_y";
-  assert_int_equal(example_read_words(&field, *state, file, &options),
-                   FG_STATUS_UNSUPPORTED);
-  assert_non_null(strstr(fg_context_message(*state), "3 x 3 x 3 points needs three"));
-  assert_non_null(strstr(fg_context_hint(*state), "--vars U,V,W"));
-
-  example_image(file, "", VOLUME,
-                POINTS(SCALAR("u", TWENTYSEVEN) SCALAR("v", TWENTYSEVEN)));
-  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_UNSUPPORTED);
-  assert_non_null(strstr(fg_context_message(*state), "needs three components"));
-}
-
-static void several_volumes_of_vectors_are_ambiguous(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  fg_field *field = NULL;
-  example_image(file, "", VOLUME,
-                POINTS(SCALAR("cx", TWENTYSEVEN) SCALAR("cy", TWENTYSEVEN)
-                           SCALAR("cz", TWENTYSEVEN) SCALAR("bx", TWENTYSEVEN)
-                               SCALAR("by", TWENTYSEVEN) SCALAR("bz", TWENTYSEVEN)
-                                   SCALAR("ax", TWENTYSEVEN) SCALAR("ay", TWENTYSEVEN)));
-  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "2 vectors"));
-  assert_non_null(strstr(fg_context_message(*state), "cx,cy,cz; bx,by,bz"));
-}
-
-/* Two layers of points are a plane with a mean, as ever. */
-static void two_layers_are_a_plane(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  fg_field *field = NULL;
-  example_image(file, "", WIDE, POINTS(SCALAR("u", EIGHTEEN) SCALAR("v", EIGHTEEN)));
-  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
-  const fg_field_arrays *f = fg_field_contents(field);
-  assert_int_equal(f->dimension, 2);
-  assert_true(f->size[0] == 3 && f->size[1] == 3);
-  assert_true(f->velocity[0][0] == 1.5f);
-  fg_field_destroy(field);
+  check_texts(*state, SITUATIONS, sizeof SITUATIONS / sizeof *SITUATIONS);
 }
 
 static void an_inventory_tells_of_a_volume(void **state)
@@ -243,7 +238,8 @@ static void an_inventory_tells_of_a_volume(void **state)
   fg_inventory *inventory = NULL;
   fg__source source = {.path = "a.vti", .bytes = file.bytes, .size = file.size};
   assert_int_equal(fg__inventory_create(&inventory, *state, "x"), FG_STATUS_OK);
-  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source), FG_STATUS_OK);
+  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source, NULL),
+                   FG_STATUS_OK);
   const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
   assert_int_equal(u->dimension, 3);
   assert_int_equal(u->components, 3);
@@ -253,41 +249,6 @@ static void an_inventory_tells_of_a_volume(void **state)
   assert_null(u->unusable);
   fg_inventory_destroy(inventory);
   example_free(&file);
-}
-
-static void rectilinear(char file[EXAMPLE_FILE_BYTES], const char *extent,
-                        const char *pieces)
-{
-  int size = snprintf(file, EXAMPLE_FILE_BYTES,
-                      "<VTKFile type='RectilinearGrid'><RectilinearGrid "
-                      "WholeExtent='%s'>%s</RectilinearGrid></VTKFile>",
-                      extent, pieces);
-  assert_true(size > 0 && size < EXAMPLE_FILE_BYTES);
-}
-
-#define AXES(x, y, z)                                                                    \
-  "<Coordinates>" SCALAR("a", x) SCALAR("b", y) SCALAR("c", z) "</Coordinates>"
-#define LEFT                                                                             \
-  "<Piece Extent='2 4 0 1 7 7'>" POINTS(PAIR_OF("U", "1 1 2 2 3 3 4 4 5 5 6 6"))         \
-      AXES("0.5 1 4", "-1 2", "9") "</Piece>"
-#define RIGHT                                                                            \
-  "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))                 \
-      AXES("4 4.25", "-1 2", "9") "</Piece>"
-
-static void rectilinear_grids_have_their_own_axes(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  rectilinear(file, "2 5 0 1 7 7", LEFT RIGHT);
-  fg_field *field = NULL;
-  assert_int_equal(example_read_words(&field, *state, file, NULL), FG_STATUS_OK);
-  const fg_field_arrays *f = fg_field_contents(field);
-  assert_int_equal(f->dimension, 2);
-  const double x[] = {0.5, 1.0, 4.0, 4.25}, y[] = {-1.0, 2.0};
-  assert_memory_equal(f->axis[0], x, sizeof x);
-  assert_memory_equal(f->axis[1], y, sizeof y);
-  const float u[] = {1, 2, 3, 7, 4, 5, 6, 8};
-  assert_memory_equal(f->velocity[0], u, sizeof u);
-  fg_field_destroy(field);
 }
 
 static void add_number(example_text *file, double number)
@@ -372,40 +333,6 @@ static void axes_that_descend_are_reversed(void **state)
     }
 }
 
-static void wrong_coordinates_are_refused(void **state)
-{
-  static const struct {
-    const char *pieces, *words;
-  } cases[] = {
-      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
-           AXES("4", "-1 2", "9") "</Piece>",
-       "cut short"},
-      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
-           AXES("4 nan", "-1 2", "9") "</Piece>",
-       "coordinate 3 of 4 along x"},
-      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8"))
-           AXES("4 3", "-1 2", "9") "</Piece>",
-       "does not ascend"},
-      {LEFT
-       "<Piece Extent='4 5 0 1 7 7'>" POINTS(PAIR_OF("U", "3 3 7 7 6 6 8 8")) "</Piece>",
-       "0 arrays of coordinates"},
-      {LEFT "<Piece Extent='4 5 0 1 7 7'>" POINTS(
-           PAIR_OF("U", "3 3 7 7 6 6 8 8")) "<Coordinates>" VECTOR("a", "1 2 3 4 5 6")
-           SCALAR("b", "-1 2") SCALAR("c", "9") "</Coordinates></Piece>",
-       "are vectors"},
-  };
-  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-    char file[EXAMPLE_FILE_BYTES];
-    rectilinear(file, "2 5 0 1 7 7", cases[i].pieces);
-    fg_field *field = NULL;
-    fg_status status = example_read_words(&field, *state, file, NULL);
-    assert_true(status == FG_STATUS_FILE_FORMAT || status == FG_STATUS_ARGUMENT);
-    if (!strstr(fg_context_message(*state), cases[i].words))
-      fail_msg("\"%s\" lacks \"%s\"", fg_context_message(*state), cases[i].words);
-    assert_null(field);
-  }
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -414,13 +341,9 @@ int main(void)
       cmocka_unit_test(cells_go_to_their_points),
       cmocka_unit_test(hidden_cells_are_holes),
       cmocka_unit_test(a_mask_leaves_its_points_out),
-      cmocka_unit_test(three_scalars_are_a_vector),
-      cmocka_unit_test(several_volumes_of_vectors_are_ambiguous),
-      cmocka_unit_test(two_layers_are_a_plane),
       cmocka_unit_test(an_inventory_tells_of_a_volume),
-      cmocka_unit_test(rectilinear_grids_have_their_own_axes),
       cmocka_unit_test(axes_that_descend_are_reversed),
-      cmocka_unit_test(wrong_coordinates_are_refused),
+      cmocka_unit_test(texts_are_read_or_refused),
   };
   return cmocka_run_group_tests_name("read/vtk/volume", tests, context_set_up,
                                      context_tear_down);

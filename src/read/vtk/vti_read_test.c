@@ -1,104 +1,197 @@
+/* What is found in VTK XML images, and what is missing in them. */
+#include "read/situation_test.h"
 #include "read/vtk/vti_example.h"
-
-#include <math.h>
 
 static const example_encoding ASCII = {.type = EXAMPLE_FLOAT64};
 
-static bool is_missing(const fg_field *field, size_t i)
-{
-  const fg_field_arrays *a = fg_field_contents(field);
-  return (a->valid && !a->valid[i]) || isnan(a->velocity[0][i]) ||
-         isnan(a->velocity[1][i]);
-}
-
-/* "0 1 1": missing, not, not. */
-static void assert_missing(const fg_field *field, const char *there)
-{
-  size_t i = 0;
-  for (; *there; ++there)
-    if (*there == '0' || *there == '1')
-      assert_int_equal(is_missing(field, i++), *there == '0');
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_int_equal(i, a->size[0] * a->size[1]);
-}
-
-static void assert_numbers(const float *found, const double *expected, size_t count)
-{
-  for (size_t i = 0; i < count; ++i)
-    assert_true(fabs((double)found[i] - expected[i]) <= 1e-6 * fabs(expected[i]));
-}
-
+#define IMAGE(attributes, extent, data)                                                  \
+  "<VTKFile type='ImageData' version='0.1'><ImageData WholeExtent='" extent              \
+  "' " attributes "><Piece Extent='" extent "'>" data "</Piece></ImageData></VTKFile>"
 /* 3 x 2 points */
 #define SIX "1 10 0 2 20 0 3 30 0\n4 40 0 5 50 0 6 60 0"
-
-static void cells_are_averaged_onto_the_points(void **state)
-{
-  /* 2 x 2 cells: a corner has one cell, an edge two, the middle all four */
-  static const double u[9] = {1, 1.5, 2, 2, 2.75, 3.5, 3, 4, 5};
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "Spacing='2 1 1'", "0 2 0 2 0 1",
-                CELLS(VECTOR("U", "1 -1 9 2 -2 9 3 -3 9 5 -5 9")));
-  fg_field *field = example_field(*state, file, NULL);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_int_equal(a->size[0], 3);
-  assert_int_equal(a->size[1], 3);
-  assert_true(a->axis[0][2] == 4.0 && a->axis[1][2] == 2.0);
-  assert_numbers(a->velocity[0], u, 9);
-  for (size_t i = 0; i < 9; ++i)
-    assert_true(a->velocity[1][i] == -a->velocity[0][i]);
-  assert_string_equal(a->velocity_name[1], "U_y");
-  assert_string_equal(a->title, "U");
-  fg_field_destroy(field);
-}
-
-static void a_layer_along_any_axis_is_a_plane(void **state)
-{
-  static const struct {
-    const char *extent;
-    int size[2];
-    int component[2];
-    const char *names[2];
-  } cases[] = {
-      {"0 2 0 1 7 7", {3, 2}, {0, 1}, {"x", "y"}},
-      {"0 2 7 7 0 1", {3, 2}, {0, 2}, {"x", "z"}},
-      {"7 7 0 2 0 1", {3, 2}, {1, 2}, {"y", "z"}},
-      {"0 1 0 2 -3 -3", {2, 3}, {0, 1}, {"x", "y"}},
-  };
-  for (size_t c = 0; c < sizeof cases / sizeof cases[0]; ++c) {
-    char file[EXAMPLE_FILE_BYTES];
-    example_image(
-        file, "", cases[c].extent,
-        POINTS(VECTOR("U", "1 10 100 2 20 200 3 30 300 4 40 400 5 50 500 6 60 600")));
-    fg_field *field = example_field(*state, file, NULL);
-    const fg_field_arrays *a = fg_field_contents(field);
-    for (size_t k = 0; k < 2; ++k) {
-      assert_int_equal(a->size[k], cases[c].size[k]);
-      assert_string_equal(a->axis_name[k], cases[c].names[k]);
-      double scale = pow(10.0, cases[c].component[k]);
-      for (size_t i = 0; i < 6; ++i)
-        assert_true((double)a->velocity[k][i] == scale * (double)(i + 1));
-    }
-    fg_field_destroy(field);
+#define ONES "1 1 1 1 1 1"
+#define TWOS "2 2 2 2 2 2"
+#define THREES "3 3 3 3 3 3"
+#define SIX2 "7 1 7 1 7 1 7 1 7 1 7 1"
+#define SMALL(data) IMAGE("", "0 2 0 1 0 0", data)
+#define TWO POINTS(VECTOR("first", SIX) VECTOR("second", SIX))
+#define FOUND(what_, data, vars_, name, first)                                           \
+  {                                                                                      \
+    .what = what_, .text = SMALL(data), .options = {.vars = vars_},                      \
+    .field = "name '" name "'\nx =|u = " first " "                                       \
   }
-}
+#define REFUSED(what_, data, vars_, status_, words)                                      \
+  {                                                                                      \
+    .what = what_, .text = SMALL(data), .options = {.vars = vars_}, .status = status_,   \
+    .refused = words                                                                     \
+  }
+#define LAYER(extent, size, first, second, u, v)                                         \
+  {                                                                                      \
+    .what = "a layer of " extent,                                                        \
+    .text = IMAGE("", extent,                                                            \
+                  POINTS(VECTOR("U", "1 10 100 2 20 200 3 30 300 4 40 400 5 50 500 6 "   \
+                                     "60 600"))),                                        \
+    .field = " " size "\n|axis 0 '" first "'|axis 1 '" second "'|u = " u "|v = " v       \
+  }
+#define BY_ONE "1 2 3 4 5 6\n"
+#define BY_TEN "10 20 30 40 50 60\n"
+#define BY_HUNDRED "100 200 300 400 500 600\n"
 
-static void two_layers_of_points_are_their_mean(void **state)
+/* 4 x 3 points of something; which of them are missing */
+#define TWELVE "1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2"
+#define LARGE(data) IMAGE("", "0 3 0 2 0 0", data)
+#define MISSING(what_, data, mask_, u_)                                                  \
+  {                                                                                      \
+    .what = what_, .text = LARGE(data), .options = {.mask = mask_},                      \
+    .field = "u = " u_ "\n"                                                              \
+  }
+
+static const situation SITUATIONS[] = {
+    /* 2 x 2 cells: a corner has one cell, an edge two, the middle all four */
+    {.what = "cells are averaged onto the points",
+     .text = IMAGE("Spacing='2 1 1'", "0 2 0 2 0 1",
+                   CELLS(VECTOR("U", "1 -1 9 2 -2 9 3 -3 9 5 -5 9"))),
+     .field = " 3 x 3\n|x = 0 2 4\n|y = 0 1 2\n|u = 1 1.5 2 2 2.75 3.5 3 4 5\n|v = -1 "
+              "-1.5 -2 -2 -2.75 -3.5 -3 -4 -5\n|name 'U_y'|title 'U'"},
+    LAYER("0 2 0 1 7 7", "3 x 2", "x", "y", BY_ONE, BY_TEN),
+    LAYER("0 2 7 7 0 1", "3 x 2", "x", "z", BY_ONE, BY_HUNDRED),
+    LAYER("7 7 0 2 0 1", "3 x 2", "y", "z", BY_TEN, BY_HUNDRED),
+    LAYER("0 1 0 2 -3 -3", "2 x 3", "x", "y", BY_ONE, BY_TEN),
+    /* two points along y: the plane is x, z, the mean of rows one after another */
+    {.what = "two layers of points are their mean",
+     .text = IMAGE("", "0 2 0 1 0 2",
+                   POINTS(VECTOR("U", "1 0 1 2 0 1 3 0 1  5 0 9 6 0 9 9 0 9\n"
+                                      "10 0 2 11 0 2 12 0 2  20 0 4 21 0 4 22 0 4\n"
+                                      "0 0 0 0 0 0 0 0 0  2 0 2 4 0 4 6 0 6"))),
+     .field = " 3 x 3\n|u = 3 4 6 15 16 17 1 2 3\n|v = 5 5 5 3 3 3 1 2 3\n"},
+    FOUND("a vector", POINTS(SCALAR("p", ONES) VECTOR("U", SIX)), NULL, "U_x", "1"),
+    FOUND("the active vector",
+          "<PointData Vectors='B'>" VECTOR("A", SIX) PAIR_OF("B", SIX2) "</PointData>",
+          NULL, "B_x", "7"),
+    FOUND("a named vector", POINTS(VECTOR("A", SIX) PAIR_OF("B", SIX2)), "B", "B_x", "7"),
+    FOUND("a pair beside places",
+          POINTS(SCALAR("v", ONES) SCALAR("u", TWOS) SCALAR("x", ONES) SCALAR("y", ONES)),
+          NULL, "u", "2"),
+    FOUND("a pair of one stem", POINTS(SCALAR("wind_y", ONES) SCALAR("wind_x", TWOS)),
+          NULL, "wind_x", "2"),
+    FOUND("a pair at a height", POINTS(SCALAR("u10", THREES) SCALAR("v10", ONES)), NULL,
+          "u10", "3"),
+    FOUND("a named pair", POINTS(SCALAR("a", ONES) SCALAR("b", TWOS)), "b,a", "b", "2"),
+    FOUND("a vector before a pair",
+          POINTS(SCALAR("u", ONES) SCALAR("v", TWOS) VECTOR("U", SIX)), NULL, "U_x", "1"),
+    FOUND("colours are no vector",
+          POINTS("<DataArray type='UInt8' Name='rgb' NumberOfComponents='3'>" SIX
+                 "</DataArray>" VECTOR("U", SIX)),
+          NULL, "U_x", "1"),
+    FOUND("one name on points and cells is one quantity",
+          CELLS(VECTOR("U", "8 8 8 8 8 8")) POINTS(VECTOR("U", SIX)), NULL, "U_x", "1"),
+    {.what = "two vectors",
+     .text = SMALL(TWO),
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "first; second",
+     .hint = "--vars first"},
+    REFUSED("a third of two", TWO, "third", FG_STATUS_ARGUMENT, "first; second"),
+    REFUSED("no name", TWO, "", FG_STATUS_ARGUMENT, "first; second"),
+    REFUSED("two vectors as components", TWO, "first,second", FG_STATUS_ARGUMENT,
+            "3 components"),
+    REFUSED("a scalar", POINTS(SCALAR("p", ONES)), NULL, FG_STATUS_UNSUPPORTED,
+            "no vectors found among its 1 variable: p"),
+    REFUSED("nothing", "", NULL, FG_STATUS_UNSUPPORTED, "0 variables"),
+    REFUSED("a named scalar", POINTS(SCALAR("p", ONES)), "p", FG_STATUS_ARGUMENT,
+            "is one variable"),
+    REFUSED("a second that is not there", POINTS(SCALAR("p", ONES)), "p,q",
+            FG_STATUS_ARGUMENT, "'q'"),
+    REFUSED("four names", POINTS(SCALAR("p", ONES)), "p,p,p,p", FG_STATUS_ARGUMENT,
+            "two or three names"),
+    REFUSED("points and cells", POINTS(SCALAR("p", ONES)) CELLS(SCALAR("q", "1 1")),
+            "p,q", FG_STATUS_UNSUPPORTED, "points and cells"),
+    REFUSED("one name twice", POINTS(SCALAR("U", ONES) VECTOR("U", SIX)), NULL,
+            FG_STATUS_FILE_FORMAT, "two arrays"),
+    {.what = "a longitude and latitude, as asked",
+     .text = SMALL(POINTS(VECTOR("U", SIX))),
+     .options = {.scale = FG_SCALE_GEO},
+     .field = "geo "},
+    {.what = "there is one time",
+     .options = {.time = 2},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "time 2"},
+    {.what = "there is one level",
+     .options = {.level = -1},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "level -1"},
+    {.what = "no second file", .options = {.vars_from = "x"}, .refused = ""},
+    {.what = "time, units and a name with a reference",
+     .text = "<?xml version=\"1.0\"?><!-- <by hand> -->\n"
+             "<VTKFile type='ImageData'><ImageData WholeExtent='0 2 0 1 0 0'>"
+             "<FieldData><DataArray type='Float64' Name='TimeValue' NumberOfTuples='1' "
+             "format='ascii'>0.03</DataArray></FieldData>"
+             "<Piece Extent='0 2 0 1 0 0'><PointData><DataArray type='Float64' Name='a "
+             "&lt; b' NumberOfComponents='2'> <InformationKey name='UNITS_LABEL' "
+             "location='vtkDataArray'> mm/s\n</InformationKey>" SIX2
+             "</DataArray></PointData></Piece></ImageData></VTKFile>",
+     .field = "plain |time 't = 0.03'|units 'mm/s'|title 'a < b'"},
+
+    MISSING("not a number in either component",
+            POINTS(PAIR_OF("U", "nan 2 1 2 1 2 1 2\n1 2 1 2 1 NaN 1 2\n1 2 1 2 1 2 1 2")),
+            NULL, "nan 1 1 1 1 1 nan 1 1 1 1 1"),
+    MISSING("bit 2 is hidden, bit 1 only a duplicate",
+            POINTS(PAIR_OF("U", TWELVE) BYTES("vtkGhostType", "2 0 1 0 0 0 0 0 0 0 0 3")),
+            NULL, "nan 1 1 1 1 1 1 1 1 1 1 nan"),
+    MISSING("points that are not valid",
+            POINTS(PAIR_OF("U", TWELVE)
+                       BYTES("vtkValidPointMask", "1 1 1 0 1 1 1 1 1 1 1 1")),
+            NULL, "1 1 1 nan 1 1 1 1 1 1 1 1"),
+    MISSING("a hidden cell takes its four corners",
+            POINTS(PAIR_OF("U", TWELVE)) CELLS(BYTES("vtkGhostType", "0 1 32 0 0 0")),
+            NULL, "1 1 nan nan 1 1 nan nan 1 1 1 1"),
+    MISSING("hidden cells",
+            CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 1 2")
+                      BYTES("vtkGhostType", "32 4 0 0 0 0")),
+            NULL, "nan nan 1 1 nan nan 1 1 1 1 1 1"),
+    MISSING("a cell without a number", CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 nan nan")),
+            NULL, "1 1 1 1 1 1 nan nan 1 1 nan nan"),
+    MISSING("a mask is zero outside",
+            POINTS(PAIR_OF("U", TWELVE) SCALAR("m", "0 1 2 1 1 1 1 1 1 nan 1 1")), "m",
+            "nan 1 1 1 1 1 1 1 1 nan 1 1"),
+    MISSING("flags of velocimetry are negative where a vector was rejected",
+            POINTS(PAIR_OF("U", TWELVE) SCALAR("m", "1 1 1 1 1 1 -3 1 1 1 1 1")), "m",
+            "1 1 1 1 1 1 nan 1 1 1 1 1"),
+    MISSING("a vector is its own mask where it is filled with zeros",
+            POINTS(PAIR_OF("U", "0 0 0 1 1 0 -1 0\n1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2")),
+            "U", "nan 0 1 -1 1 1 1 1 1 1 1 1"),
+    MISSING("the mask on cells, the vector on points",
+            POINTS(PAIR_OF("U", TWELVE)) CELLS(SCALAR("m", "1 1 1 0 1 1")), "m",
+            "1 1 1 1 nan nan 1 1 nan nan 1 1"),
+    {.what = "a mask that is not there",
+     .text = LARGE(POINTS(PAIR_OF("U", TWELVE))),
+     .options = {.mask = "m"},
+     .status = FG_STATUS_ARGUMENT,
+     .refused = "",
+     .hint = "U"},
+    {.what = "infinite samples are missing",
+     .text = LARGE(POINTS(PAIR_OF("U", "inf 2 1 2 1 2 1 -inf 1 2 1 2 1 2 1 nan 1 2 1 2 1 "
+                                       "2 1 2"))),
+     .field = "u = nan 1 1 nan 1 1 1 nan 1 1 1 1\n|infinite 2\n",
+     .inventory = "missing 0.25\n"},
+    {.what = "one infinite cell of six takes the four points round it",
+     .text = LARGE(CELLS(PAIR_OF("U", "inf 2 1 2 1 2 1 2 1 2 1 2"))),
+     .field = "u = nan nan 1 1 nan nan 1 1 1 1 1 1\n|infinite 4\n"},
+    {.what = "every vector is listed",
+     .text = IMAGE("Origin='1 2 3' Spacing='0.5 2 1'", "0 3 0 2 0 0",
+                   "<PointData Vectors='U'>" PAIR_OF(
+                       "U", "nan 2 1 2 1 2 1 2\n1 2 1 2 1 NaN 1 2\n"
+                            "1 2 nan 2 1 2 1 2") SCALAR("vx", "1 1 1 1 1 1 1 1 1 1 1 1")
+                       SCALAR("vy", "1 1 1 1 1 1 1 1 1 1 1 1")
+                           SCALAR("p", "") "</PointData>" CELLS(
+                               PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 1 2") SCALAR("p", ""))),
+     .inventory =
+         "vectors 2\n[U Vectors attribute]\nplain 4 x 3\nmissing 0.25\n|bounds = "
+         "1 2.5 2 6\n|[vx,vy names]|!unusable"},
+};
+
+static void images_are_read_or_refused(void **state)
 {
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 2 0 1 0 2",
-                POINTS(VECTOR("U", "1 0 1 2 0 1 3 0 1  5 0 9 6 0 9 9 0 9\n"
-                                   "10 0 2 11 0 2 12 0 2  20 0 4 21 0 4 22 0 4\n"
-                                   "0 0 0 0 0 0 0 0 0  2 0 2 4 0 4 6 0 6")));
-  /* two points along y: the plane is x, z, the mean of rows that lie one after another */
-  static const double u[9] = {3, 4, 6, 15, 16, 17, 1, 2, 3};
-  static const double w[9] = {5, 5, 5, 3, 3, 3, 1, 2, 3};
-  fg_field *field = example_field(*state, file, NULL);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_int_equal(a->size[0], 3);
-  assert_int_equal(a->size[1], 3);
-  assert_numbers(a->velocity[0], u, 9);
-  assert_numbers(a->velocity[1], w, 9);
-  fg_field_destroy(field);
+  check_texts(*state, SITUATIONS, sizeof SITUATIONS / sizeof *SITUATIONS);
 }
 
 static void pieces_make_the_same_field_as_the_whole(void **state)
@@ -148,272 +241,11 @@ static void pieces_make_the_same_field_as_the_whole(void **state)
   }
 }
 
-static void assert_chosen(fg_context *context, const char *data, const char *vars,
-                          const char *u_name, float first)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 2 0 1 0 0", data);
-  fg_read_options options = {.vars = vars};
-  fg_field *field = example_field(context, file, &options);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_string_equal(a->velocity_name[0], u_name);
-  assert_true(a->velocity[0][0] == first);
-  fg_field_destroy(field);
-}
-
-static void assert_not_chosen(fg_context *context, const char *data, const char *vars,
-                              fg_status expected, const char *words)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 2 0 1 0 0", data);
-  fg_read_options options = {.vars = vars};
-  fg_field *field = NULL;
-  assert_int_equal(example_read_words(&field, context, file, &options), expected);
-  assert_null(field);
-  if (!strstr(fg_context_message(context), words))
-    assert_non_null(strstr(fg_context_hint(context), words));
-}
-
-#define ONES "1 1 1 1 1 1"
-#define TWOS "2 2 2 2 2 2"
-#define THREES "3 3 3 3 3 3"
-#define SIX2 "7 1 7 1 7 1 7 1 7 1 7 1"
-
-static void the_vector_is_found(void **state)
-{
-  assert_chosen(*state, POINTS(SCALAR("p", ONES) VECTOR("U", SIX)), NULL, "U_x", 1);
-  assert_chosen(*state,
-                "<PointData Vectors='B'>" VECTOR("A", SIX)
-                    PAIR_OF("B", SIX2) "</PointData>",
-                NULL, "B_x", 7);
-  assert_chosen(*state, POINTS(VECTOR("A", SIX) PAIR_OF("B", SIX2)), "B", "B_x", 7);
-  assert_chosen(
-      *state,
-      POINTS(SCALAR("v", ONES) SCALAR("u", TWOS) SCALAR("x", ONES) SCALAR("y", ONES)),
-      NULL, "u", 2);
-  assert_chosen(*state, POINTS(SCALAR("wind_y", ONES) SCALAR("wind_x", TWOS)), NULL,
-                "wind_x", 2);
-  assert_chosen(*state, POINTS(SCALAR("u10", THREES) SCALAR("v10", ONES)), NULL, "u10",
-                3);
-  assert_chosen(*state, POINTS(SCALAR("a", ONES) SCALAR("b", TWOS)), "b,a", "b", 2);
-  /* a vector is found before pairs, and colours are no vectors */
-  assert_chosen(*state, POINTS(SCALAR("u", ONES) SCALAR("v", TWOS) VECTOR("U", SIX)),
-                NULL, "U_x", 1);
-  assert_chosen(*state,
-                POINTS("<DataArray type='UInt8' Name='rgb' NumberOfComponents='3'>" SIX
-                       "</DataArray>" VECTOR("U", SIX)),
-                NULL, "U_x", 1);
-  /* one name on points and cells is one quantity */
-  assert_chosen(*state, CELLS(VECTOR("U", "8 8 8 8 8 8")) POINTS(VECTOR("U", SIX)), NULL,
-                "U_x", 1);
-}
-
-static void what_cannot_be_chosen_is_explained(void **state)
-{
-  const char *two = POINTS(VECTOR("first", SIX) VECTOR("second", SIX));
-  assert_not_chosen(*state, two, NULL, FG_STATUS_ARGUMENT, "first; second");
-  assert_not_chosen(*state, two, NULL, FG_STATUS_ARGUMENT, "--vars first");
-  assert_not_chosen(*state, two, "third", FG_STATUS_ARGUMENT, "first; second");
-  assert_not_chosen(*state, two, "", FG_STATUS_ARGUMENT, "first; second");
-  assert_not_chosen(*state, two, "first,second", FG_STATUS_ARGUMENT, "3 components");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), NULL, FG_STATUS_UNSUPPORTED,
-                    "no vectors found among its 1 variable: p");
-  assert_not_chosen(*state, "", NULL, FG_STATUS_UNSUPPORTED, "0 variables");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p", FG_STATUS_ARGUMENT,
-                    "is one variable");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p,q", FG_STATUS_ARGUMENT, "'q'");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)), "p,p,p,p", FG_STATUS_ARGUMENT,
-                    "two or three names");
-  assert_not_chosen(*state, POINTS(SCALAR("p", ONES)) CELLS(SCALAR("q", "1 1")), "p,q",
-                    FG_STATUS_UNSUPPORTED, "points and cells");
-  assert_not_chosen(*state, POINTS(SCALAR("U", ONES) VECTOR("U", SIX)), NULL,
-                    FG_STATUS_FILE_FORMAT, "two arrays");
-}
-
-static void only_one_snapshot_is_there(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 2 0 1 0 0", POINTS(VECTOR("U", SIX)));
-  fg_field *field = NULL;
-  fg_read_options time = {.time = 2}, level = {.level = -1}, from = {.vars_from = "x"};
-  assert_int_equal(example_read_words(&field, *state, file, &time), FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_message(*state), "time 2"));
-  assert_int_equal(example_read_words(&field, *state, file, &level), FG_STATUS_ARGUMENT);
-  assert_int_equal(example_read_words(&field, *state, file, &from),
-                   FG_STATUS_UNSUPPORTED);
-  fg_read_options geo = {.scale = FG_SCALE_GEO};
-  field = example_field(*state, file, &geo);
-  assert_true(fg_field_contents(field)->scale == FG_SCALE_GEO);
-  fg_field_destroy(field);
-}
-
-static void words_are_taken_from_the_file(void **state)
-{
-  static const char file[] =
-      "<?xml version=\"1.0\"?><!-- <by hand> -->\n"
-      "<VTKFile type='ImageData'><ImageData WholeExtent='0 2 0 1 0 0'>"
-      "<FieldData><DataArray type='Float64' Name='TimeValue' NumberOfTuples='1' "
-      "format='ascii'>0.03</DataArray></FieldData>"
-      "<Piece Extent='0 2 0 1 0 0'><PointData><DataArray type='Float64' Name='a &lt; b' "
-      "NumberOfComponents='2'> <InformationKey name='UNITS_LABEL' "
-      "location='vtkDataArray'>"
-      " mm/s\n</InformationKey>" SIX2 "</DataArray></PointData></Piece></ImageData>"
-      "</VTKFile>";
-  fg_field *field = example_field(*state, file, NULL);
-  const fg_field_arrays *a = fg_field_contents(field);
-  assert_string_equal(a->time, "t = 0.03");
-  assert_string_equal(a->velocity_units, "mm/s");
-  assert_string_equal(a->title, "a < b");
-  assert_true(a->scale == FG_SCALE_PLAIN);
-  fg_field_destroy(field);
-}
-
-/* 4 x 3 points of something */
-#define TWELVE "1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2"
-
-static void assert_mask(fg_context *context, const char *data, const char *mask,
-                        const char *there)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 3 0 2 0 0", data);
-  fg_read_options options = {.mask = mask};
-  fg_field *field = example_field(context, file, &options);
-  assert_missing(field, there);
-  fg_field_destroy(field);
-}
-
-static void missing_samples_are_known(void **state)
-{
-  /* NaN in either component */
-  assert_mask(
-      *state,
-      POINTS(PAIR_OF("U", "nan 2 1 2 1 2 1 2\n1 2 1 2 1 NaN 1 2\n1 2 1 2 1 2 1 2")), NULL,
-      "0111 1101 1111");
-  /* bit 2 is hidden, bit 1 only a duplicate */
-  assert_mask(
-      *state,
-      POINTS(PAIR_OF("U", TWELVE) BYTES("vtkGhostType", "2 0 1 0 0 0 0 0 0 0 0 3")), NULL,
-      "0111 1111 1110");
-  assert_mask(
-      *state,
-      POINTS(PAIR_OF("U", TWELVE) BYTES("vtkValidPointMask", "1 1 1 0 1 1 1 1 1 1 1 1")),
-      NULL, "1110 1111 1111");
-  /* a hidden cell, the last of the first row, takes its four corners */
-  assert_mask(*state,
-              POINTS(PAIR_OF("U", TWELVE)) CELLS(BYTES("vtkGhostType", "0 1 32 0 0 0")),
-              NULL, "1100 1100 1111");
-  assert_mask(*state,
-              CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 1 2")
-                        BYTES("vtkGhostType", "32 4 0 0 0 0")),
-              NULL, "0011 0011 1111");
-  assert_mask(*state, CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 nan nan")), NULL,
-              "1111 1100 1100");
-}
-
-static void a_mask_is_zero_outside(void **state)
-{
-  assert_mask(*state,
-              POINTS(PAIR_OF("U", TWELVE) SCALAR("m", "0 1 2 1 1 1 1 1 1 nan 1 1")), "m",
-              "0111 1111 1011");
-  /* flags of velocimetry are negative where a vector was rejected */
-  assert_mask(*state,
-              POINTS(PAIR_OF("U", TWELVE) SCALAR("m", "1 1 1 1 1 1 -3 1 1 1 1 1")), "m",
-              "1111 1101 1111");
-  /* a vector is its own mask where it is filled with zeros */
-  assert_mask(*state,
-              POINTS(PAIR_OF("U", "0 0 0 1 1 0 -1 0\n1 2 1 2 1 2 1 2\n1 2 1 2 1 2 1 2")),
-              "U", "0111 1111 1111");
-  /* the mask on cells, the vector on points */
-  assert_mask(*state, POINTS(PAIR_OF("U", TWELVE)) CELLS(SCALAR("m", "1 1 1 0 1 1")), "m",
-              "1111 0011 0011");
-
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 3 0 2 0 0", POINTS(PAIR_OF("U", TWELVE)));
-  fg_read_options options = {.mask = "m"};
-  fg_field *field = NULL;
-  assert_int_equal(example_read_words(&field, *state, file, &options),
-                   FG_STATUS_ARGUMENT);
-  assert_non_null(strstr(fg_context_hint(*state), "U"));
-}
-
-static fg_inventory *inventory_of(fg_context *context, const char *words)
-{
-  fg_inventory *inventory = NULL;
-  fg_context_clear(context);
-  assert_int_equal(fg__inventory_create(&inventory, context, "x"), FG_STATUS_OK);
-  fg__source source = {
-      .path = "a.vti", .bytes = (const unsigned char *)words, .size = strlen(words)};
-  assert_int_equal(fg__format_vti.inventory(inventory, context, &source), FG_STATUS_OK);
-  return inventory;
-}
-
-static void every_vector_is_listed(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(
-      file, "Origin='1 2 3' Spacing='0.5 2 1'", "0 3 0 2 0 0",
-      "<PointData Vectors='U'>" PAIR_OF("U", "nan 2 1 2 1 2 1 2\n1 2 1 2 1 NaN 1 2\n"
-                                             "1 2 nan 2 1 2 1 2")
-          SCALAR("vx", "1 1 1 1 1 1 1 1 1 1 1 1") SCALAR("vy", "1 1 1 1 1 1 1 1 1 1 1 1")
-              SCALAR("p", "") "</PointData>" CELLS(PAIR_OF("U", "1 2 1 2 1 2 1 2 1 2 1 2")
-                                                       SCALAR("p", "")));
-  fg_inventory *inventory = inventory_of(*state, file);
-  assert_int_equal(fg_inventory_vector_count(inventory), 2);
-  const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
-  assert_string_equal(u->name[0], "U");
-  assert_null(u->name[1]);
-  assert_string_equal(u->found_by, "Vectors attribute");
-  assert_int_equal(u->components, 2);
-  assert_int_equal(u->dimension, 2);
-  assert_int_equal(u->size[0], 4);
-  assert_int_equal(u->size[1], 3);
-  assert_true(u->missing_share == 0.25);
-  assert_true(u->bounds[0] == 1.0 && u->bounds[1] == 2.5);
-  assert_true(u->bounds[2] == 2.0 && u->bounds[3] == 6.0);
-  assert_null(u->unusable);
-  const fg_inventory_vector *pair = fg_inventory_vector_at(inventory, 1);
-  assert_string_equal(pair->name[1], "vy");
-  assert_string_equal(pair->found_by, "names");
-  fg_inventory_destroy(inventory);
-}
-
-static void infinite_samples_are_missing(void **state)
-{
-  char file[EXAMPLE_FILE_BYTES];
-  example_image(file, "", "0 3 0 2 0 0",
-                POINTS(PAIR_OF("U", "inf 2 1 2 1 2 1 -inf 1 2 1 2 1 2 1 nan 1 2 1 2 1 2 "
-                                    "1 2")));
-  fg_field *field = example_field(*state, file, NULL);
-  assert_missing(field, "011011101111");
-  assert_int_equal(fg_field_infinite(field), 2);
-  fg_field_destroy(field);
-  fg_inventory *inventory = inventory_of(*state, file);
-  assert_true(fg_inventory_vector_at(inventory, 0)->missing_share == 0.25);
-  fg_inventory_destroy(inventory);
-  /* one cell of six, at a corner of the grid: the four points round it */
-  example_image(file, "", "0 3 0 2 0 0",
-                CELLS(PAIR_OF("U", "inf 2 1 2 1 2 1 2 1 2 1 2")));
-  field = example_field(*state, file, NULL);
-  assert_missing(field, "001100111111");
-  assert_int_equal(fg_field_infinite(field), 4);
-  fg_field_destroy(field);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cells_are_averaged_onto_the_points),
-      cmocka_unit_test(a_layer_along_any_axis_is_a_plane),
-      cmocka_unit_test(two_layers_of_points_are_their_mean),
+      cmocka_unit_test(images_are_read_or_refused),
       cmocka_unit_test(pieces_make_the_same_field_as_the_whole),
-      cmocka_unit_test(the_vector_is_found),
-      cmocka_unit_test(what_cannot_be_chosen_is_explained),
-      cmocka_unit_test(only_one_snapshot_is_there),
-      cmocka_unit_test(words_are_taken_from_the_file),
-      cmocka_unit_test(missing_samples_are_known),
-      cmocka_unit_test(infinite_samples_are_missing),
-      cmocka_unit_test(a_mask_is_zero_outside),
-      cmocka_unit_test(every_vector_is_listed),
   };
   return cmocka_run_group_tests_name("read/vtk/vti_read", tests, context_set_up,
                                      context_tear_down);

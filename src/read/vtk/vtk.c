@@ -24,8 +24,6 @@ const fg__format fg__format_vti = {
         "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd, .series)",
     .is_mine = fg__is_vtk_xml,
     .inventory = inventory_hook,
-    .inventory_chosen = chosen_hook,
-    .defaults = defaults_hook,
     .sphere = sphere_hook,
     .read = read_hook,
     .tensors = tensors_hook};

@@ -155,17 +155,54 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Intervals that cells suggest along an axis. */
-static fg_status count_intervals(double *out, const fg__cell_set *set, int axis,
-                                 double width)
+/* Whether a cell's box and another have a place in common. */
+static bool meets(const fg__cell_set *set, const cell_box *cell, const cell_box *other)
 {
-  const size_t step = set->count / MEASURED_CELLS + 1;
-  double *widths = fg__allocate(set->count / step + 1, sizeof *widths);
-  size_t measured = 0;
+  bool both = true;
+  for (int k = 0; k < 3; ++k)
+    both = both && (k == set->flat ||
+                    (cell->low[k] <= other->high[k] && cell->high[k] >= other->low[k]));
+  return both;
+}
+
+/* Narrows the box of all cells to the region; *cells: how many reach into it. */
+static fg_status find_part(cell_box *box, size_t *cells, const fg__cell_set *set)
+{
+  static const char *const letters[] = {"x", "y", "z"};
+  fg_status status = FG_STATUS_OK;
+  *cells = set->region.axes > 0 ? 0 : set->count;
+  for (int k = 0, n = 0; k < 3 && status == FG_STATUS_OK; ++k)
+    if (k != set->flat) {
+      status = fg__region_clip(&box->low[k], &box->high[k], set->context, set->path,
+                               &set->region, n, letters[k]);
+      ++n;
+    }
+  for (size_t c = 0; c < set->count && set->region.axes > 0; ++c) {
+    const cell_box cell = box_of(set, c);
+    *cells += meets(set, &cell, box);
+  }
+  if (status == FG_STATUS_OK && *cells == 0)
+    status = fg__fail(set->context, FG_STATUS_ARGUMENT,
+                      "%s: no cell lies in the region: %g to %g, %g to %g, %g to %g",
+                      set->path, box->low[0], box->high[0], box->low[1], box->high[1],
+                      box->low[2], box->high[2]);
+  return status;
+}
+
+/* Intervals that the cells in a box suggest along an axis of it. */
+static fg_status count_intervals(double *out, const fg__cell_set *set, int axis,
+                                 const cell_box *part, size_t cells)
+{
+  const double width = part->high[axis] - part->low[axis];
+  const size_t step = cells / MEASURED_CELLS + 1;
+  double *widths = fg__allocate(cells / step + 1, sizeof *widths);
+  size_t measured = 0, met = 0;
   if (!widths)
     return fg__fail_memory(set->context, "widths of cells", MEASURED_CELLS * 8);
-  for (size_t c = 0; c < set->count; c += step) {
+  for (size_t c = 0; c < set->count; ++c) {
     const cell_box box = box_of(set, c);
+    if (!meets(set, &box, part) || met++ % step != 0)
+      continue;
     if (box.high[axis] - box.low[axis] > FLAT * FLAT * width)
       widths[measured++] = box.high[axis] - box.low[axis];
   }
@@ -251,16 +288,19 @@ fg_status fg__cell_set_choose_raster(fg__cell_set *set)
 {
   cell_box box;
   double intervals[3] = {0.0, 0.0, 0.0};
+  size_t cells = set->count;
   fg_status status = find_box_and_flat(&box, set);
+  if (status == FG_STATUS_OK)
+    status = find_part(&box, &cells, set);
   for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k)
     if (k != set->flat)
-      status = count_intervals(&intervals[k], set, k, box.high[k] - box.low[k]);
+      status = count_intervals(&intervals[k], set, k, &box, cells);
   if (status != FG_STATUS_OK)
     return status;
   set->dimension = set->flat < 0 ? 3 : 2;
   set_raster(set, &box, intervals,
-             fmin(MOST_SAMPLES, SAMPLES_OF_FEW + SAMPLES_A_CELL * (double)set->count));
-  const double most = FEW_TRIED + TRIED_A_CELL * (double)set->count;
+             fmin(MOST_SAMPLES, SAMPLES_OF_FEW + SAMPLES_A_CELL * (double)cells));
+  const double most = FEW_TRIED + TRIED_A_CELL * (double)cells;
   set->tried = count_tried(set);
   if (set->tried > most) {
     set_raster(set, &box, intervals, count_raster(set) * most / set->tried);

@@ -7,6 +7,7 @@
 #include "base/context.h"
 #include "field/cell_types.h"
 #include "field/plane.h"
+#include "field/region.h"
 
 enum { FG__CELL_CORNERS = 8 };
 
@@ -56,7 +57,8 @@ typedef struct fg__cell_set {
   size_t numbers; /* cells of the file, those left out included */
   bool tilted;    /* a plane that is along no two axes: positions are in the plane's own
                      coordinates, x and y, at z = 0 */
-  fg__plane_basis basis; /* of it */
+  fg__plane_basis basis;   /* of it */
+  fg__field_region region; /* that the raster is wanted of, in the axes of the field */
   /* of the raster: */
   int dimension;
   int flat; /* in 2D the axis that it has one sample along; else -1 */

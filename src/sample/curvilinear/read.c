@@ -139,7 +139,7 @@ static fg_status read_mask(centre_values *all, const fg__dataset *data, const ch
                            size_t time, size_t level)
 {
   const fg__curvilinear *mesh = all->mesh;
-  const fg__curvilinear_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  const fg__curvilinear_part *at = &mesh->at;
   const fg__variable *mask = name ? fg__dataset_find(data, name) : mesh->mask;
   if (name && !mask)
     return fg__fail(data->context, FG_STATUS_ARGUMENT,
@@ -206,7 +206,7 @@ static fg_status read_angle(double *given[2], const centre_values *all,
                             const fg__dataset *data, size_t time)
 {
   const fg__curvilinear *mesh = all->mesh;
-  const fg__curvilinear_part *at = mesh->centre.variable ? &mesh->centre : &mesh->part[0];
+  const fg__curvilinear_part *at = &mesh->at;
   fg_status status = FG_STATUS_OK;
   for (int k = 0; k < 2 && mesh->turn >= FG__TURN_ANGLE; ++k) {
     given[k] = fg__allocate(all->count, sizeof *given[k]);

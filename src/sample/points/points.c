@@ -290,6 +290,8 @@ static fg_status interpolate(fg__point_grid *out, fg__scatter_between *between,
                              const fg__scatter *points)
 {
   fg__cell_set set = {.context = points->context, .path = points->path};
+  if (points->region.axes == 2)
+    set.region = points->region;
   fg_status status = triangulate(&set, between, points);
   if (status == FG_STATUS_OK)
     status = fg__cell_set_locate(&set);

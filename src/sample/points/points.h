@@ -13,12 +13,13 @@ typedef struct fg__scatter {
   fg_context *context;
   const char *path;
   size_t count;
-  int dimension;       /* coordinates a point has */
-  double *position[3]; /* [count] each */
-  float *velocity[3];  /* [count] each; NaN: missing */
-  int *record;         /* [count], where each stands in the file, or NULL */
-  const char *records; /* what that is: "line" */
-  bool geographic;     /* longitude and latitude in degrees; east and north */
+  int dimension;           /* coordinates a point has */
+  double *position[3];     /* [count] each */
+  float *velocity[3];      /* [count] each; NaN: missing */
+  int *record;             /* [count], where each stands in the file, or NULL */
+  const char *records;     /* what that is: "line" */
+  bool geographic;         /* longitude and latitude in degrees; east and north */
+  fg__field_region region; /* that samples between them are wanted of, of no map */
 } fg__scatter;
 
 void fg__scatter_clear(fg__scatter *points);

@@ -132,12 +132,22 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
+static bool is_in_region(const fg__scatter *points, size_t i)
+{
+  bool in = true;
+  for (int k = 0; k < points->region.axes; ++k)
+    in = in && points->position[k][i] >= points->region.low[k] &&
+         points->position[k][i] <= points->region.high[k];
+  return in;
+}
+
 /* The reach of each point; *spacing: the mean distance of points where they are as dense
- * as round the median one. */
+ * as round the median one in the region. */
 static fg_status measure(cloud *c, double *spacing)
 {
   const fg__scatter *points = c->points;
   const size_t count = points->count;
+  size_t inside = 0;
   float *sorted = fg__allocate(count, sizeof *sorted);
   c->reach = fg__allocate(count, sizeof *c->reach);
   if (!sorted || !c->reach) {
@@ -150,10 +160,16 @@ static fg_status measure(cloud *c, double *spacing)
     fg__nearest_points near;
     const bool found = fg__point_tree_find(&near, &c->tree, at, FITTED + 1);
     c->reach[i] = found ? (float)sqrt(near.distance[FITTED]) : 0.0f;
-    sorted[i] = c->reach[i];
+    if (is_in_region(points, i))
+      sorted[inside++] = c->reach[i];
   }
-  qsort(sorted, count, sizeof *sorted, by_size);
-  *spacing = (double)sorted[count / 2] * cbrt(4.0 / 3.0 * 3.14159265358979 / FITTED);
+  if (inside == 0) {
+    free(sorted);
+    return fg__fail(points->context, FG_STATUS_ARGUMENT,
+                    "%s: none of its %zu points lies in the region", points->path, count);
+  }
+  qsort(sorted, inside, sizeof *sorted, by_size);
+  *spacing = (double)sorted[inside / 2] * cbrt(4.0 / 3.0 * 3.14159265358979 / FITTED);
   free(sorted);
   return FG_STATUS_OK;
 }
@@ -173,20 +189,30 @@ static void fit_sizes(int size[3], const double width[3], double step, double mo
   } while (samples > most);
 }
 
-static fg_status make_lattice(fg__point_grid *out, const fg__scatter *points, double step)
+/* The box of the points, or its part in the region. */
+static fg_status find_box(double low[3], double high[3], const fg__scatter *points)
 {
-  double low[3], width[3];
-  const double most =
-      fmin(MOST_SAMPLES, FEWEST_SAMPLES + SAMPLES_A_POINT * (double)points->count);
-  for (int k = 0; k < 3; ++k) {
-    double high = -HUGE_VAL;
+  static const char *const letters[] = {"x", "y", "z"};
+  fg_status status = FG_STATUS_OK;
+  for (int k = 0; k < 3 && status == FG_STATUS_OK; ++k) {
     low[k] = HUGE_VAL;
+    high[k] = -HUGE_VAL;
     for (size_t i = 0; i < points->count; ++i) {
       low[k] = fmin(low[k], points->position[k][i]);
-      high = fmax(high, points->position[k][i]);
+      high[k] = fmax(high[k], points->position[k][i]);
     }
-    width[k] = high - low[k];
+    status = fg__region_clip(&low[k], &high[k], points->context, points->path,
+                             &points->region, k, letters[k]);
   }
+  return status;
+}
+
+static fg_status make_lattice(fg__point_grid *out, const fg__scatter *points,
+                              const double low[3], const double high[3], double step)
+{
+  const double most =
+      fmin(MOST_SAMPLES, FEWEST_SAMPLES + SAMPLES_A_POINT * (double)points->count);
+  const double width[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
   *out = (fg__point_grid){.dimension = 3, .points = points->count};
   fit_sizes(out->size, width, step, most);
   const size_t samples = fg__point_grid_samples(out);
@@ -224,13 +250,15 @@ bool fg__scatter_fills_space(const fg__scatter *points)
 fg_status fg__scatter_fit(fg__point_grid *out, const fg__scatter *points)
 {
   cloud c = {.points = points};
-  double spacing = 0.0;
-  fg_status status = fg__point_tree_create(
-      &c.tree, points->context, (const double *const *)points->position, points->count);
+  double spacing = 0.0, low[3], high[3];
+  fg_status status = find_box(low, high, points);
+  if (status == FG_STATUS_OK)
+    status = fg__point_tree_create(
+        &c.tree, points->context, (const double *const *)points->position, points->count);
   if (status == FG_STATUS_OK)
     status = measure(&c, &spacing);
   if (status == FG_STATUS_OK)
-    status = make_lattice(out, points, FINE * spacing);
+    status = make_lattice(out, points, low, high, FINE * spacing);
   if (status == FG_STATUS_OK)
     status = fill(out, &c);
   free(c.reach);

@@ -30,7 +30,8 @@ static fg_status locate(fg__cell_set *set, fg__dataset *data)
                         .path = data->file[0].path,
                         .points = from->points,
                         .position = from->position,
-                        .numbers = from->cells};
+                        .numbers = from->cells,
+                        .region = data->region};
   from->position = NULL;
   for (size_t c = 0; c < from->cells && status == FG_STATUS_OK; ++c) {
     const size_t end = c + 1 < from->cells ? from->first[c + 1] : from->corners;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "field/field.h"
@@ -107,6 +108,34 @@ static void clear(float *velocity[3], double *axis[3])
   }
 }
 
+/* Whether the dataset's region is one in the axes of a grid, whose samples are not yet
+ * those of the region alone. */
+static bool has_region(const fg__dataset *data, const fg__grid *grid)
+{
+  return data->region.axes > 0 && data->region.axes <= grid->dimension &&
+         !grid->domain->cells && grid->scale != FG_SCALE_GEO && !grid->projection[0];
+}
+
+/* Of a grid along axes only the rows that the dataset's region needs. */
+static fg_status find_rows(fg__rows *rows, fg__grid *part, const fg__dataset *data,
+                           const fg__grid *grid, const double *axis)
+{
+  const int last = grid->dimension - 1;
+  const fg__field_region *region = &data->region;
+  fg__region_range range;
+  *part = *grid;
+  if (!has_region(data, grid) || region->axes <= last)
+    return FG_STATUS_OK;
+  const fg_status status =
+      fg__region_find(&range, data->context, data->file[0].path, region, last,
+                      grid->axis[last].name, axis, grid->axis[last].size);
+  if (status == FG_STATUS_OK) {
+    *rows = (fg__rows){(int)range.first, (int)range.count, (int)range.count};
+    part->axis[last].size = range.count;
+  }
+  return status;
+}
+
 /* Of a plane that is read whole the normal component is read, too, for its share. */
 fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pair *pair,
                           const fg__grid *grid, const fg_read_options *options,
@@ -115,17 +144,20 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
   const fg__space_domain *domain = grid->domain;
   const size_t last = domain->size[domain->dimension - 1],
                row = fg__space_domain_row(domain);
-  const fg__rows rows = fg__rows_of(&slab, (int)last, false);
-  const fg__row_range range = {(size_t)rows.first, (size_t)rows.held};
+  fg__rows rows = fg__rows_of(&slab, (int)last, false);
+  fg__grid part;
   const bool plane =
       domain->dimension == 2 && fg__pair_components(pair) == 3 && slab.count == 1;
   float *velocity[3] = {NULL, NULL, NULL};
   double *axis[3] = {NULL, NULL, NULL}, sum[2] = {0.0, 0.0};
-  fg_status status =
-      fg__check_memory(data->context, data->file[0].path, (double)row * rows.held,
-                       domain->dimension * (double)sizeof(float));
+  double *held[3];
+  fg_status status = create_axes(axis, data, domain);
   if (status == FG_STATUS_OK)
-    status = create_axes(axis, data, domain);
+    status = find_rows(&rows, &part, data, grid, axis[domain->dimension - 1]);
+  const fg__row_range range = {(size_t)rows.first, (size_t)rows.held};
+  if (status == FG_STATUS_OK)
+    status = fg__check_memory(data->context, data->file[0].path, (double)row * rows.held,
+                              domain->dimension * (double)sizeof(float));
   if (status == FG_STATUS_OK)
     status =
         fg__space_samples(velocity, data, pair, grid, &range, options->mask, plane, NULL);
@@ -138,8 +170,11 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
         fg__field_check_plane(data->context, sum[0], sum[1],
                               (const char *[2]){fg__space_domain_axis_name(domain, 0),
                                                 fg__space_domain_axis_name(domain, 1)});
+  memcpy(held, axis, sizeof held);
+  if (part.axis[domain->dimension - 1].size < last)
+    held[domain->dimension - 1] += rows.first;
   if (status == FG_STATUS_OK)
-    status = create_field(out, data, pair, grid, options, velocity, axis, &slab);
+    status = create_field(out, data, pair, &part, options, velocity, held, &slab);
   if (status == FG_STATUS_OK)
     (*out)->normal_share = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   clear(velocity, axis);
@@ -181,6 +216,25 @@ fg_status fg__space_count(fg_inventory_vector *vector, const fg__dataset *data,
   return FG_STATUS_OK;
 }
 
+/* Size and bounds of the part in the dataset's region. */
+static fg_status describe_part(fg_inventory_vector *vector, const fg__dataset *data,
+                               const fg__grid *grid)
+{
+  double *axis[3] = {NULL, NULL, NULL};
+  fg_status status = create_axes(axis, data, grid->domain);
+  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k) {
+    fg__region_range part;
+    status = fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
+                             grid->axis[k].name, axis[k], grid->axis[k].size);
+    vector->size[k] = (int)part.count;
+    vector->bounds[2 * k] = part.low;
+    vector->bounds[2 * k + 1] = part.high;
+  }
+  for (int k = 0; k < 3; ++k)
+    free(axis[k]);
+  return status;
+}
+
 fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *data,
                              const fg__pair *pair, const fg__grid *grid)
 {
@@ -193,13 +247,12 @@ fg_status fg__space_describe(fg_inventory_vector *vector, const fg__dataset *dat
   for (int k = 0; k < domain->dimension; ++k) {
     double *bounds = &vector->bounds[2 * k];
     vector->size[k] = (int)domain->size[k];
-    if (domain->dimension == 2)
-      vector->axis_name[k] = fg__space_domain_axis_name(domain, k);
+    vector->axis_name[k] = fg__space_domain_axis_name(domain, k);
     fg_status status = fg__space_domain_coordinates(&bounds[0], data, k, 0, 1);
     if (status == FG_STATUS_OK)
       status = fg__space_domain_coordinates(&bounds[1], data, k, domain->size[k] - 1, 1);
     if (status != FG_STATUS_OK)
       return status;
   }
-  return FG_STATUS_OK;
+  return has_region(data, grid) ? describe_part(vector, data, grid) : FG_STATUS_OK;
 }

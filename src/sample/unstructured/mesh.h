@@ -81,6 +81,7 @@ typedef struct fg__mesh_request {
   bool counts_only; /* how much is missing, even all */
   fg__vector_words words;
   fg_field_arrays texts;
+  fg__field_region region; /* that samples are wanted of */
 } fg__mesh_request;
 
 /* points.c. The same of points without a mesh: *missing of them have no value. As a field

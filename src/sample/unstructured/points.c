@@ -16,10 +16,8 @@ static fg_status read_places(double *out, const fg__mesh_request *r,
   const fg__packing packing = fg__packing_of(v);
   size_t start[FG__RANK] = {0}, count[FG__RANK];
   for (int k = 0; k < v->rank; ++k) {
-    const int d = v->dimension[k];
-    const bool along = mesh->rank > 1 ? k >= v->rank - mesh->rank
-                                      : fg__same_dimension(r->data, d, mesh->dimension);
-    count[k] = along ? r->data->dimensions[d].length : 1;
+    const bool along = fg__along_places(r->data, mesh, v, k);
+    count[k] = along ? r->data->dimensions[v->dimension[k]].length : 1;
     if (k == grid->time && (size_t)r->options->time < grid->times)
       start[k] = (size_t)r->options->time;
     if (k == grid->level && (size_t)r->options->level < grid->levels)
@@ -223,6 +221,7 @@ static fg_status make_scatter(fg__scatter *out, size_t *missing,
                        .count = count,
                        .dimension = fg__places_dimension(mesh, r->pair),
                        .records = decoder->records ? decoder->records : "point"};
+  out->region = r->region;
   out->geographic = !mesh->in_plane && out->dimension == 2;
   fg_status status = valid ? read_velocity(velocity, r, out->dimension)
                            : fg__fail_memory(r->data->context, "points", 2 * count);

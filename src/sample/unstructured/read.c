@@ -322,7 +322,8 @@ static fg_status name_axes(fg__grid *plane, fg_field_arrays *texts, const reques
 static fg_status sample_cells(fg__point_grid *out, const request *r,
                               const fg__sphere_cells *cells)
 {
-  fg__cell_set set = {.context = r->data->context, .path = r->data->file[0].path};
+  fg__cell_set set = {
+      .context = r->data->context, .path = r->data->file[0].path, .region = r->region};
   fg_status status = add_cells(&set, cells);
   if (status == FG_STATUS_OK)
     status = fg__cell_set_locate(&set);
@@ -340,14 +341,17 @@ static fg_status plane_field(fg_field **out, fg__scatter_between *between,
   fg_field_arrays texts = r->texts;
   fg__sphere_cells cells = {0};
   fg__point_grid grid = {0};
+  request part = *r;
   fg_status status = name_axes(&plane, &texts, r);
   if (status != FG_STATUS_OK)
     return status;
+  if (texts.scale != FG_SCALE_MAP || !texts.projection)
+    part.region = r->data->region;
   if (is_on_points(r))
-    return fg__points_field(out, between, missing, r, &texts, slab);
+    return fg__points_field(out, between, missing, &part, &texts, slab);
   status = make_cells(&cells, missing, r);
   if (status == FG_STATUS_OK)
-    status = sample_cells(&grid, r, &cells);
+    status = sample_cells(&grid, &part, &cells);
   if (status == FG_STATUS_OK)
     status = fg__point_grid_field(out, r->data->context, &grid, &texts, slab);
   fg__point_grid_clear(&grid);
@@ -467,7 +471,7 @@ fg_status fg__unstructured_describe(fg_inventory_vector *vector, const fg__datas
     fg__sphere_extent_of(&extent, sphere);
     fg__globe_describe(vector, &extent);
   } else if (status == FG_STATUS_OK) {
-    fg__describe_field(vector, field);
+    fg__describe_field(vector, grid->unstructured->axis_name, field);
   }
   vector->missing_share = (double)missing / (double)grid->samples;
   if (field && is_on_points(&r))

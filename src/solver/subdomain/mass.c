@@ -192,6 +192,20 @@ void fg__mass_constraint_clear(fg__mass_constraint *masses)
   *masses = (fg__mass_constraint){.count = 1};
 }
 
+double fg__mass_constraint_hold(fg__mass_constraint *masses,
+                                const fg__multigrid *multigrid, const float *u)
+{
+  double sum = 0.0, mass = 0.0;
+  add_up(masses, multigrid, u, masses->mean);
+  for (int n = 0; n < masses->count; ++n) {
+    double mean = masses->mean[n] / masses->mass[n];
+    masses->mean[n] = ldexp(rint(ldexp(mean, 20)), -20);
+    sum += masses->mass[n] * masses->mean[n];
+    mass += masses->mass[n];
+  }
+  return sum / mass;
+}
+
 bool fg__mass_constraint_bound(fg__mass_constraint *masses, double low, double high)
 {
   bool changed = false;

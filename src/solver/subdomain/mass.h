@@ -38,6 +38,12 @@ fg_status fg__mass_constraint_create(fg__mass_constraint *out, fg_context *conte
                                      const fg__multigrid *multigrid, const float *u);
 void fg__mass_constraint_clear(fg__mass_constraint *masses);
 
+/* Of several subdomains the means of u, rounded to multiples of 2^-20, are those to be
+ * kept: a u in which they were restored, as a checkpoint has it, gives the same means
+ * again. Returns the mean of all. Collective. */
+double fg__mass_constraint_hold(fg__mass_constraint *masses,
+                                const fg__multigrid *multigrid, const float *u);
+
 /* Clamps the means to be kept to two bounds; whether any lay beyond. */
 bool fg__mass_constraint_bound(fg__mass_constraint *masses, double low, double high);
 

@@ -1,7 +1,7 @@
 /* A volume written as NetCDF is read again with the same velocity. */
 #include <math.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 static void what_is_written_comes_back(void **state)
 {

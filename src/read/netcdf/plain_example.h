@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { NX = 5, NY = 4, COUNT = NX * NY };
 
