@@ -32,8 +32,8 @@
  * All of this is made of parts that can be called alone; examples/ has programs.
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
- * ranks), field.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h, energy.h
- * and checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly
+ * ranks), field.h, dataset.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h,
+ * energy.h and checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly
  * N arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
  * rival.h (what to compare with), score.h (how good it is), words.h (suggestions for
  * misspelt words); and mpi.h (several processes), which it does not include. Each can be
@@ -64,6 +64,7 @@
 #include "flowgrain/brush.h"
 #include "flowgrain/checkpoint.h"
 #include "flowgrain/context.h"
+#include "flowgrain/dataset.h"
 #include "flowgrain/density.h"
 #include "flowgrain/energy.h"
 #include "flowgrain/evolution.h"

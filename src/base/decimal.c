@@ -1,6 +1,7 @@
 #include "base/decimal.h"
 
 #include <float.h>
+#include <locale.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -120,4 +121,26 @@ void fg__number_write(char text[FG__NUMBER_BYTES], double number)
   if (strtod(text, NULL) != number)
     snprintf(text, FG__NUMBER_BYTES, "%.17g", number);
   put_point(text);
+}
+
+void fg__number_round(char text[FG__NUMBER_BYTES], double number, int digits)
+{
+  snprintf(text, FG__NUMBER_BYTES, "%.*g", digits, number);
+  put_point(text);
+}
+
+double fg__number_read(const char *text, const char **end)
+{
+  enum { LONGEST = 400 };
+  char copy[LONGEST + 16], *behind;
+  const char *point = localeconv()->decimal_point;
+  const size_t whole = strcspn(text, "."), more = strlen(point) - 1;
+  if (text[whole] != '.' || whole > LONGEST)
+    point = NULL;
+  snprintf(copy, sizeof copy, "%.*s%s%s", (int)(whole < LONGEST ? whole : LONGEST), text,
+           point ? point : "", point ? text + whole + 1 : "");
+  const double number = strtod(copy, &behind);
+  const size_t used = (size_t)(behind - copy);
+  *end = text + (point && used > whole ? used - more : used);
+  return number;
 }

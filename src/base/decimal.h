@@ -8,4 +8,10 @@ enum { FG__NUMBER_BYTES = 32 };
  * do: 0.03, not 0.029999999999999999. */
 void fg__number_write(char text[FG__NUMBER_BYTES], double number);
 
+/* Writes a decimal of that many digits or fewer, at most 17. */
+void fg__number_round(char text[FG__NUMBER_BYTES], double number, int digits);
+
+/* Reads a number as strtod does, but with a point. */
+double fg__number_read(const char *text, const char **end);
+
 #endif

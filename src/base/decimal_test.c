@@ -1,4 +1,5 @@
 /* Numbers as text are what printf would write with the fewest of 15 or 17 digits. */
+#include <locale.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -75,8 +76,41 @@ static void numbers_are_printfs(void **state)
   }
 }
 
+static void numbers_are_rounded(void **state)
+{
+  (void)state;
+  char text[FG__NUMBER_BYTES];
+  fg__number_round(text, 38.5, 9);
+  assert_string_equal(text, "38.5");
+  fg__number_round(text, -45.2340011596679688, 9);
+  assert_string_equal(text, "-45.2340012");
+}
+
+/* Locales that write 2,5 or have a longer point need not be installed. */
+static void numbers_are_read_with_a_point(void **state)
+{
+  (void)state;
+  static const char *const other[] = {"C", "de_DE.UTF-8", "de_DE", "ps_AF.UTF-8"};
+  const char *end;
+  for (size_t n = 0; n < sizeof other / sizeof *other; ++n) {
+    setlocale(LC_NUMERIC, other[n]);
+    const double number = fg__number_read("2.75e1m", &end);
+    setlocale(LC_NUMERIC, "C");
+    assert_true(number == 27.5);
+    assert_string_equal(end, "m");
+  }
+  assert_true(fg__number_read("-3 m", &end) == -3.0);
+  assert_string_equal(end, " m");
+  assert_true(fg__number_read(".5", &end) == 0.5);
+  assert_string_equal(end, "");
+  fg__number_read("none", &end);
+  assert_string_equal(end, "none");
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_printfs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_printfs),
+                                     cmocka_unit_test(numbers_are_rounded),
+                                     cmocka_unit_test(numbers_are_read_with_a_point)};
   return cmocka_run_group_tests_name("base/decimal", tests, NULL, NULL);
 }

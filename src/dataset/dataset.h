@@ -165,6 +165,7 @@ struct fg__dataset {
   int times;    /* 0: there was no choice */
   bool has_blocks;
   fg__missing_numbers missing;
+  const struct fg__projector *projector; /* NULL: projections are not known */
   fg__field_region region; /* that samples are wanted of, where they go on no map */
 };
 

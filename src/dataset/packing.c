@@ -1,10 +1,10 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/angle.h"
 #include "dataset/dataset.h"
+#include "terms/text.h"
 #include "terms/units.h"
 
 static double round_to_type(double value, fg__type type)
@@ -64,7 +64,7 @@ static void find_unsigned(fg__packing *p, const fg__variable *v)
 {
   char text[FG__TEXT_BYTES];
   if (!fg__attribute_text(v, "_Unsigned", text, sizeof text) ||
-      strcasecmp(text, "true") != 0)
+      !fg__is_same(text, "true"))
     return;
   p->wrap = v->type == FG__TYPE_INT8    ? 256.0
             : v->type == FG__TYPE_INT16 ? 65536.0

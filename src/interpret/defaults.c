@@ -2,11 +2,11 @@
  * file does not have. */
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
+#include "terms/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Axes with more levels get no default level. */
 enum { MOST_LEVELS = 100000 };
@@ -18,9 +18,7 @@ static direction attribute_direction(const fg__variable *coordinate)
 {
   char text[FG__TEXT_BYTES];
   fg__attribute_text(coordinate, "positive", text, sizeof text);
-  return strcasecmp(text, "up") == 0     ? UP
-         : strcasecmp(text, "down") == 0 ? DOWN
-                                         : NEITHER;
+  return fg__is_same(text, "up") ? UP : fg__is_same(text, "down") ? DOWN : NEITHER;
 }
 
 /* Whether any value is. */
@@ -45,7 +43,7 @@ static direction direction_in_ocean(const fg__variable *coordinate, const double
   if (strstr(name, "ocean_s_") || strstr(name, "ocean_sigma"))
     return positive == NEITHER ? UP : positive;
   if (strcmp(name, "depth") == 0 ||
-      (!name[0] && strncasecmp(coordinate->plain_name, "depth", 5) == 0))
+      (!name[0] && fg__starts_with(coordinate->plain_name, "depth")))
     return positive == NEITHER ? DOWN : positive;
   const fg__quantity quantity = fg__units_read(units, label, sizeof label);
   if (quantity == FG__QUANTITY_PRESSURE && strcmp(label, "dbar") != 0)

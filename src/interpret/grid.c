@@ -4,12 +4,12 @@
 #include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/frame.h"
+#include "terms/text.h"
 
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* 2^31 samples take 24 gigabytes while a field is made; more is taken as damage. */
 static const size_t MOST_SAMPLES = (size_t)1 << 31;
@@ -179,8 +179,7 @@ static bool is_called_geographic(const fg__variable *v)
 {
   char text[FG__TEXT_BYTES];
   return fg__attribute_text(v, "standard_name", text, sizeof text) ||
-         strncasecmp(v->plain_name, "lon", 3) == 0 ||
-         strncasecmp(v->plain_name, "lat", 3) == 0;
+         fg__starts_with(v->plain_name, "lon") || fg__starts_with(v->plain_name, "lat");
 }
 
 /* Whether an axis counts from 0 or 1, as sample numbers do. */

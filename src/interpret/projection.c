@@ -2,10 +2,10 @@
  * string (CF conventions, appendix F), checked against the file's longitudes and
  * latitudes where it has them. */
 #include "base/angle.h"
+#include "base/decimal.h"
 #include "base/memory.h"
-#include "file/number_text.h"
 #include "interpret/interpret.h"
-#include "map/map.h"
+#include "interpret/projector.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,12 +135,11 @@ static double metres_of(const fg__grid_axis *axis)
 static bool compose(fg__grid *grid, const fg__variable *v, const double shift[2])
 {
   char name[FG__TEXT_BYTES];
-  fg__number_locale locale;
   proj_text text = {grid->projection, sizeof grid->projection, 0};
   fg__attribute_text(v, "grid_mapping_name", name, sizeof name);
   const cf_mapping *mapping = mapping_of(name);
   grid->projection[0] = '\0';
-  if (!mapping || !fg__number_locale_begin(&locale))
+  if (!mapping)
     return false;
   const bool angular = strncmp(mapping->projection, "ob_tran", 7) == 0;
   static const char *const offset[2][2] = {{"false_easting", "x_0"},
@@ -157,7 +156,6 @@ static bool compose(fg__grid *grid, const fg__variable *v, const double shift[2]
   add_earth(&text, v);
   if (!angular)
     add_words(&text, "units", metres_of(&grid->axis[0]) == 1.0 ? "m" : "km");
-  fg__number_locale_end(&locale);
   return text.used > 0;
 }
 
@@ -169,8 +167,8 @@ typedef struct agreement {
   size_t count;
 } agreement;
 
-static void compare(agreement *out, const fg__map *map, const fg__grid *grid,
-                    const double *longitude, const double *latitude)
+static void compare(agreement *out, const fg__projector *by, const fg__map *map,
+                    const fg__grid *grid, const double *longitude, const double *latitude)
 {
   double off[COMPARED * COMPARED + 2 * COMPARED + 1][2];
   const size_t columns = grid->axis[0].size, rows = grid->axis[1].size;
@@ -178,8 +176,8 @@ static void compare(agreement *out, const fg__map *map, const fg__grid *grid,
   for (size_t j = 0; j < rows; j += rows / COMPARED + 1)
     for (size_t i = 0; i < columns; i += columns / COMPARED + 1) {
       double at[2];
-      fg__map_forward(map, 1, &longitude[j * columns + i], &latitude[j * columns + i],
-                      &at[0], &at[1]);
+      by->forward(map, 1, &longitude[j * columns + i], &latitude[j * columns + i], &at[0],
+                  &at[1]);
       if (!isfinite(at[0]) || !isfinite(at[1]) || out->count >= sizeof off / sizeof *off)
         continue;
       off[out->count][0] = grid->axis[0].coordinate[i] - at[0];
@@ -223,12 +221,13 @@ static fg_status check(fg__grid *grid, const fg__dataset *data, const fg__variab
                        const fg__variable *described)
 {
   double *position[2] = {NULL, NULL};
+  const fg__projector *by = data->projector;
   fg__map *map = NULL;
   agreement got = {{0.0, 0.0}, 0.0, 0};
   fg_status status = read_positions(position, data, grid, u);
   if (status == FG_STATUS_OK && position[0] && position[1] &&
-      fg__map_create(&map, NULL, grid->projection) == FG_STATUS_OK)
-    compare(&got, map, grid, position[0], position[1]);
+      by->create(&map, NULL, grid->projection) == FG_STATUS_OK)
+    compare(&got, by, map, grid, position[0], position[1]);
   const bool angular = strstr(grid->projection, "ob_tran") != NULL;
   if (got.count > 0 && (got.residual > LARGEST_RESIDUAL ||
                         (angular && (got.shift[0] != 0.0 || got.shift[1] != 0.0)))) {
@@ -239,7 +238,7 @@ static fg_status check(fg__grid *grid, const fg__dataset *data, const fg__variab
   } else if (got.shift[0] != 0.0 || got.shift[1] != 0.0) {
     compose(grid, described, got.shift);
   }
-  fg__map_destroy(map);
+  by->destroy(map);
   free(position[0]);
   free(position[1]);
   return status;
@@ -258,12 +257,13 @@ fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,
 {
   static const double none[2] = {0.0, 0.0};
   const fg__variable *described = described_by(data, u);
+  const fg__projector *by = data->projector;
   fg__map *map = NULL;
   grid->projection[0] = '\0';
-  if (!fg_has_feature(FG_FEATURE_MAPS) || !described || !compose(grid, described, none))
+  if (!by || !described || !compose(grid, described, none))
     return FG_STATUS_OK;
-  const fg_status status = fg__map_create(&map, NULL, grid->projection);
-  fg__map_destroy(map);
+  const fg_status status = by->create(&map, NULL, grid->projection);
+  by->destroy(map);
   if (status != FG_STATUS_OK) {
     grid->projection[0] = '\0';
     return status == FG_STATUS_MEMORY ? fg__fail_memory(data->context, "a map", 0)

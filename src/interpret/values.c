@@ -8,7 +8,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Values in a block: 32 megabytes as double hold whole chunks of common files; without
  * chunks, as many as stay in a core's cache. */

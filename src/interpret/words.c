@@ -2,13 +2,13 @@
 #include "base/memory.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/dates.h"
+#include "terms/text.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { MOST_WORDS = 24, WORD_BYTES = 48 };
 
@@ -42,7 +42,7 @@ static void split_words(word_list *list, const char *text)
 static bool has_word(const word_list *list, const char *word)
 {
   for (int i = 0; i < list->count; ++i)
-    if (strcasecmp(list->word[i], word) == 0)
+    if (fg__is_same(list->word[i], word))
       return true;
   return false;
 }
@@ -57,7 +57,7 @@ static void cut_directions(word_list *list)
     if (!word[0] || !strchr("uvxyUVXY", word[0]) || word[1] != '-')
       continue;
     for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
-      if (strcasecmp(word + 2, known[k]) == 0)
+      if (fg__is_same(word + 2, known[k]))
         memmove(word, word + 2, strlen(word + 2) + 1);
   }
 }
@@ -68,7 +68,7 @@ static bool is_filler(const char *word)
                                        "the",       "along",      "-",     ",",
                                        "in",        "at",         "to",    "direction"};
   for (size_t i = 0; i < sizeof filler / sizeof *filler; ++i)
-    if (strcasecmp(word, filler[i]) == 0)
+    if (fg__is_same(word, filler[i]))
       return true;
   return false;
 }
@@ -77,7 +77,7 @@ static bool is_filler(const char *word)
 static bool is_empty(const char *word)
 {
   return !isalpha((unsigned char)word[0]) || !word[1] || is_filler(word) ||
-         strcasecmp(word, "momentum") == 0;
+         fg__is_same(word, "momentum");
 }
 
 /* "Ocean current along" is "Ocean current", as is "Ocean current:". */
@@ -114,7 +114,7 @@ static bool join_shared(const char *of_u, const char *of_v, char *out, size_t si
   for (int i = 0; i < u.count; ++i) {
     char *word = u.word[i];
     if (!has_word(&v, word) || (is_filler(word) && n == 0) ||
-        strncasecmp(word, "component", 9) == 0)
+        fg__starts_with(word, "component"))
       continue;
     if (is_shouted(word))
       for (char *c = word; *c; ++c)
@@ -180,7 +180,7 @@ static bool are_none(const char *units)
 {
   static const char *const known[] = {"", "1", "level", "levels", "layer", "layers"};
   for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (strcasecmp(units, known[i]) == 0)
+    if (fg__is_same(units, known[i]))
       return true;
   return false;
 }
@@ -232,7 +232,7 @@ static void write_words(const fg__variable *coordinate, double value, char *out,
     snprintf(out, size, "%s %s", number, label);
   else if (quantity == FG__QUANTITY_LENGTH)
     snprintf(out, size, "%s %s %s", kind_of_height(coordinate), number, label);
-  else if (strncasecmp(units, "month", 5) == 0)
+  else if (fg__starts_with(units, "month"))
     snprintf(out, size, "month %s", number);
   else if (are_none(units))
     snprintf(out, size, "%s %s", coordinate->plain_name, number);

@@ -1,4 +1,6 @@
 /* Opening of files whose decoders fill a dataset. */
+#include "interpret/projector.h"
+#include "map/map.h"
 #include "read/dataset.h"
 #include "read/mapped.h"
 #include "sample/space/space.h"
@@ -22,7 +24,12 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
                            const fg__dataset_format *format, const fg__source *source,
                            const fg_read_options *options)
 {
+  static const fg__projector by_proj = {
+      fg__map_create,  fg__map_destroy, fg__map_projection, fg__map_center,
+      fg__map_forward, fg__map_inverse, fg__map_turn};
   fg_status status = FG_STATUS_OK;
+  if (fg_has_feature(FG_FEATURE_MAPS))
+    data->projector = &by_proj;
   if (options)
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)

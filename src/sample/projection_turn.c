@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 #include "base/memory.h"
-#include "map/map.h"
+#include "interpret/projector.h"
 #include "sample/velocity.h"
 
 /* Scales components from degrees to lengths: about a rotated pole a degree of longitude
@@ -30,8 +30,9 @@ fg_status fg__projection_turn(float *const velocity[2], const fg__dataset *data,
     return FG_STATUS_OK;
   const size_t columns = grid->axis[0].size;
   double *place = fg__allocate(columns, 3 * sizeof *place);
+  const fg__projector *by = data->projector;
   fg__map *map = NULL;
-  fg_status status = place ? fg__map_create(&map, data->context, grid->projection)
+  fg_status status = place ? by->create(&map, data->context, grid->projection)
                            : fg__fail_memory(data->context, "a row", columns);
   for (int j = 0; j < rows->held && status == FG_STATUS_OK; ++j) {
     const double y =
@@ -44,10 +45,10 @@ fg_status fg__projection_turn(float *const velocity[2], const fg__dataset *data,
     double *longitude = place + columns, *latitude = longitude + columns;
     for (size_t i = 0; i < columns; ++i)
       place[i] = y;
-    fg__map_inverse(map, columns, grid->axis[0].coordinate, place, longitude, latitude);
-    fg__map_turn(map, columns, longitude, latitude, u, v);
+    by->inverse(map, columns, grid->axis[0].coordinate, place, longitude, latitude);
+    by->turn(map, columns, longitude, latitude, u, v);
   }
-  fg__map_destroy(map);
+  by->destroy(map);
   free(place);
   return status;
 }

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 void fg__curvilinear_destroy(fg__curvilinear *mesh)
 {

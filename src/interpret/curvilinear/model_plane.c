@@ -1,13 +1,14 @@
 /* The plane in which a weather model's grid is evenly spaced: the projection in the
  * global attributes of WRF (Skamarock et al., A Description of the Advanced Research WRF,
  * NCAR/TN-475+STR, section 3.4 and appendix of map projections). */
-#include "file/number_text.h"
+#include "base/decimal.h"
 #include "interpret/curvilinear/curvilinear.h"
-#include "map/map.h"
+#include "interpret/projector.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The Earth's radius in WRF, metres (share/module_model_constants). */
 static const double RADIUS = 6370000.0;
@@ -33,30 +34,41 @@ static double or_else(double value, double other)
   return isfinite(value) ? value : other;
 }
 
+/* Appends " +KEY=VALUE" of nine digits, as many as attributes of four bytes have. */
+static void add(char *out, size_t size, const char *key, double value)
+{
+  char number[FG__NUMBER_BYTES];
+  const size_t used = strlen(out);
+  fg__number_round(number, value, 9);
+  snprintf(out + used, size - used, " +%s=%s", key, number);
+}
+
 static bool compose(char *out, size_t size, const fg__variable *all)
 {
   const double kind = number_of(all, "MAP_PROJ"), one = number_of(all, "TRUELAT1");
   const double meridian = number_of(all, "STAND_LON");
   const double latitude =
       or_else(number_of(all, "MOAD_CEN_LAT"), number_of(all, "CEN_LAT"));
-  fg__number_locale locale;
-  int written = 0;
-  if (!(fabs(one) <= 90.0) || !fg__number_locale_begin(&locale))
+  if (!(fabs(one) <= 90.0 && fabs(meridian) <= 360.0))
     return false;
-  if (kind == LAMBERT && fabs(meridian) <= 360.0 && fabs(latitude) < 90.0)
-    written =
-        snprintf(out, size, "+proj=lcc +lat_1=%.9g +lat_2=%.9g +lat_0=%.9g +lon_0=%.9g",
-                 one, or_else(number_of(all, "TRUELAT2"), one), latitude, meridian);
-  else if (kind == STEREOGRAPHIC && fabs(meridian) <= 360.0)
-    written = snprintf(out, size, "+proj=stere +lat_0=%d +lat_ts=%.9g +lon_0=%.9g",
-                       one < 0.0 ? -90 : 90, one, meridian);
-  else if (kind == MERCATOR && fabs(one) < 90.0 && fabs(meridian) <= 360.0)
-    written = snprintf(out, size, "+proj=merc +lat_ts=%.9g +lon_0=%.9g", one, meridian);
-  if (written > 0 && (size_t)written < size)
-    written +=
-        snprintf(out + written, size - (size_t)written, " +R=%.9g +units=km", RADIUS);
-  fg__number_locale_end(&locale);
-  return written > 0 && (size_t)written < size;
+  if (kind == LAMBERT && fabs(latitude) < 90.0) {
+    snprintf(out, size, "+proj=lcc");
+    add(out, size, "lat_1", one);
+    add(out, size, "lat_2", or_else(number_of(all, "TRUELAT2"), one));
+    add(out, size, "lat_0", latitude);
+  } else if (kind == STEREOGRAPHIC) {
+    snprintf(out, size, "+proj=stere +lat_0=%d", one < 0.0 ? -90 : 90);
+    add(out, size, "lat_ts", one);
+  } else if (kind == MERCATOR && fabs(one) < 90.0) {
+    snprintf(out, size, "+proj=merc");
+    add(out, size, "lat_ts", one);
+  } else {
+    return false;
+  }
+  add(out, size, "lon_0", meridian);
+  add(out, size, "R", RADIUS);
+  const size_t used = strlen(out);
+  return (size_t)snprintf(out + used, size - used, " +units=km") < size - used;
 }
 
 /* Positions of a grid: one for each point, or along axes. */
@@ -86,30 +98,30 @@ static bool find_inside(size_t low[2], size_t high[2], const lattice *of)
   return low[0] < high[0] && low[1] < high[1];
 }
 
-static void image_of(double at[2], const fg__map *map, const lattice *of, size_t i,
-                     size_t j)
+static void image_of(double at[2], const fg__projector *by, const fg__map *map,
+                     const lattice *of, size_t i, size_t j)
 {
   double longitude = longitude_of(of, i, j);
   const double latitude = of->latitude[of->on_axes ? j : j * of->size[0] + i];
-  longitude -= 360.0 * nearbyint((longitude - fg__map_center(map)) / 360.0);
-  fg__map_forward(map, 1, &longitude, &latitude, &at[0], &at[1]);
+  longitude -= 360.0 * nearbyint((longitude - by->center(map)) / 360.0);
+  by->forward(map, 1, &longitude, &latitude, &at[0], &at[1]);
 }
 
 /* Whether the points are evenly spaced along the plane's axes. */
-static bool is_even(const fg__map *map, const lattice *of)
+static bool is_even(const fg__projector *by, const fg__map *map, const lattice *of)
 {
   size_t low[2], high[2];
   double first[2], last[2], step[2];
   if (!find_inside(low, high, of))
     return false;
-  image_of(first, map, of, low[0], low[1]);
-  image_of(last, map, of, high[0], high[1]);
+  image_of(first, by, map, of, low[0], low[1]);
+  image_of(last, by, map, of, high[0], high[1]);
   for (int k = 0; k < 2; ++k)
     step[k] = (last[k] - first[k]) / (double)(high[k] - low[k]);
   for (size_t j = low[1]; j <= high[1]; j += (high[1] - low[1]) / COMPARED + 1)
     for (size_t i = low[0]; i <= high[0]; i += (high[0] - low[0]) / COMPARED + 1) {
       double at[2];
-      image_of(at, map, of, i, j);
+      image_of(at, by, map, of, i, j);
       const double off[2] = {at[0] - first[0] - step[0] * (double)(i - low[0]),
                              at[1] - first[1] - step[1] * (double)(j - low[1])};
       if (!(fabs(off[0]) <= LARGEST_RESIDUAL * fabs(step[0]) &&
@@ -124,11 +136,13 @@ static bool is_even(const fg__map *map, const lattice *of)
 static void find_plane(char *out, size_t size, const fg__variable *u, const lattice *of)
 {
   const fg__variable *all = fg__file_of(u);
+  const fg__projector *by = u->owner->projector;
   fg__map *map = NULL;
-  if (!fg_has_feature(FG_FEATURE_MAPS) || !compose(out, size, all) ||
-      fg__map_create(&map, NULL, out) != FG_STATUS_OK || !is_even(map, of))
+  if (!by || !compose(out, size, all) || by->create(&map, NULL, out) != FG_STATUS_OK ||
+      !is_even(by, map, of))
     out[0] = '\0';
-  fg__map_destroy(map);
+  if (map)
+    by->destroy(map);
 }
 
 void fg__model_plane(fg__curvilinear *mesh, const fg__variable *u,

@@ -1,8 +1,9 @@
 /* Which times or levels a text selects: by index, value, date, range, words, or all. */
 #include "base/context.h"
+#include "base/decimal.h"
 #include "base/memory.h"
-#include "file/number_text.h"
 #include "terms/dates.h"
+#include "terms/text.h"
 #include "terms/units.h"
 
 #include <ctype.h>
@@ -10,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* Values that differ by less than this share of theirs are the same: files round them to
  * 24 bits. */
@@ -47,12 +47,10 @@ typedef struct value_axis {
 /* A number with a unit, a point or an exponent. */
 static bool read_value(item *out, const char *text)
 {
-  fg__number_locale locale;
-  if (!strchr("+-.0123456789", text[0]) || !fg__number_locale_begin(&locale))
+  const char *end;
+  if (!strchr("+-.0123456789", text[0]))
     return false;
-  char *end;
-  out->value = strtod(text, &end);
-  fg__number_locale_end(&locale);
+  out->value = fg__number_read(text, &end);
   if (end == text || !isfinite(out->value))
     return false;
   const bool pointed = strcspn(text, ".eE") < (size_t)(end - text);
@@ -397,7 +395,7 @@ static fg_status choose_item(fg_selection *out, bool *chosen, const value_axis *
                              const char *text)
 {
   item one, ends[2];
-  if (strcasecmp(text, "all") == 0) {
+  if (fg__is_same(text, "all")) {
     out->several = true;
     for (int n = 0; n < axis->count; ++n)
       chosen[n] = true;

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/memory.h"
-#include "interpret/time_words.h"
 
 int fg__space_domain_along(const fg__space_domain *domain, int k)
 {
@@ -152,9 +152,17 @@ fg_status fg__space_find(fg__grid *grid, const fg__dataset *data, const fg__pair
   return FG_STATUS_OK;
 }
 
+enum { TIME_BYTES = FG__NUMBER_BYTES + 8 };
+
+static void write_time(char out[TIME_BYTES], double time)
+{
+  char number[FG__NUMBER_BYTES];
+  fg__number_write(number, time);
+  snprintf(out, TIME_BYTES, "t = %s", number);
+}
+
 fg_status fg__space_time(char out[FG__TEXT_BYTES], const fg__dataset *data, int time)
 {
-  char words[FG__TIME_BYTES];
   const fg__variable *file = &data->groups[0];
   double value = 0.0;
   out[0] = '\0';
@@ -163,28 +171,25 @@ fg_status fg__space_time(char out[FG__TEXT_BYTES], const fg__dataset *data, int 
   else if (fg__attribute_text(file, "TimeWords", out, FG__TEXT_BYTES) ||
            fg__attribute_numbers(file, "TimeValue", &value, 1) == 0)
     return FG_STATUS_OK;
-  const fg_status status = fg__time_write(words, data->context, value);
-  if (status == FG_STATUS_OK)
-    snprintf(out, FG__TEXT_BYTES, "%s", words);
-  return status;
+  write_time(out, value);
+  return FG_STATUS_OK;
 }
 
 fg_status fg__space_times(fg_axis_value **out, char **text, const fg__dataset *data)
 {
   const size_t count = data->time ? (size_t)data->times : 0;
-  fg_status status = FG_STATUS_OK;
   *out = NULL;
   *text = NULL;
   if (count == 0)
-    return status;
+    return FG_STATUS_OK;
   *out = fg__allocate(count, sizeof **out);
-  *text = fg__allocate(count, FG__TIME_BYTES);
+  *text = fg__allocate(count, TIME_BYTES);
   if (!*out || !*text)
     return fg__fail_memory(data->context, "times", count * sizeof **out);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n) {
-    char *words = *text + n * FG__TIME_BYTES;
-    status = fg__time_write(words, data->context, data->time[n]);
+  for (size_t n = 0; n < count; ++n) {
+    char *words = *text + n * TIME_BYTES;
+    write_time(words, data->time[n]);
     (*out)[n] = (fg_axis_value){data->time[n], "", words};
   }
-  return status;
+  return FG_STATUS_OK;
 }

@@ -2,10 +2,10 @@
  * corners are their bounds, and HEALPix, whose places follow from the numbers of its
  * cells. */
 #include "interpret/unstructured/unstructured.h"
+#include "terms/text.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 enum { MOST_LEVELS = 13 }; /* 12 * 4^13 cells are the most that an int counts */
 
@@ -17,8 +17,8 @@ static bool order_of(bool *nested, const fg__variable *v, char *words, size_t si
   for (size_t n = 0; n < sizeof known / sizeof *known; ++n) {
     if (!fg__attribute_text(v, known[n], text, sizeof text))
       continue;
-    *nested = strncasecmp(text, "nest", 4) == 0;
-    if (!*nested && strcasecmp(text, "ring") != 0)
+    *nested = fg__starts_with(text, "nest");
+    if (!*nested && !fg__is_same(text, "ring"))
       continue;
     snprintf(words, size, "%s of '%.60s'", known[n],
              v == fg__file_of(v) ? "the file" : v->plain_name);
@@ -68,7 +68,7 @@ static const fg__variable *healpix_mapping(const fg__mesh_search *search)
     v = fg__dataset_find(search->data, "crs");
   v = v ? v : fg__dataset_find(search->data, "healpix");
   return v && fg__attribute_text(v, "grid_mapping_name", text, sizeof text) &&
-                 strcasecmp(text, "healpix") == 0
+                 fg__is_same(text, "healpix")
              ? v
              : NULL;
 }
@@ -222,7 +222,7 @@ bool fg__find_trajectories(fg__unstructured *out, fg__mesh_search *search)
   const fg__variable *root = fg__file_of(u);
   if (u->rank != 2 || search->k != 1 ||
       !fg__attribute_text(root, "featureType", text, sizeof text) ||
-      strcasecmp(text, "trajectory") != 0 || !find_positions(at, search, 2))
+      !fg__is_same(text, "trajectory") || !find_positions(at, search, 2))
     return false;
   out->rank = 2;
   out->before[0] = u->dimension[0];

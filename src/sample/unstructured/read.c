@@ -2,7 +2,7 @@
  * the plane. */
 #include "base/memory.h"
 #include "field/refused.h"
-#include "map/map.h"
+#include "interpret/projector.h"
 #include "sample/cells/set.h"
 #include "sample/globe.h"
 #include "sample/layers.h"
@@ -278,10 +278,12 @@ static void find_model_projection(fg__grid *plane, const fg__variable *at)
       strncmp(text, "proj=", 5) != 0)
     return;
   snprintf(projection, sizeof projection, "+%s", text);
+  const fg__projector *by = at->owner->projector;
   fg__map *map = NULL;
-  if (fg__map_create(&map, NULL, projection) == FG_STATUS_OK)
-    snprintf(plane->projection, sizeof plane->projection, "%s", fg__map_projection(map));
-  fg__map_destroy(map);
+  if (!by || by->create(&map, NULL, projection) != FG_STATUS_OK)
+    return;
+  snprintf(plane->projection, sizeof plane->projection, "%s", by->projection(map));
+  by->destroy(map);
 }
 
 /* The axes' words and what the file says of its projection. */
