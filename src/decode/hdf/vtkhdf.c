@@ -229,7 +229,7 @@ static fg_status read_list(const vtkhdf *h, sums *s, int k, size_t part)
 static fg_status read_part(const vtkhdf *h, sums *s, size_t part)
 {
   fg__vtk *vtk = h->vtk;
-  size_t points = 0, positions;
+  size_t points = 0, positions = 0;
   fg_status status = read_count(&points, h, "", "NumberOfPoints", part);
   if (status == FG_STATUS_OK && points > INT_MAX)
     status = fg__fail(vtk->context, FG_STATUS_UNSUPPORTED, "%s: more than %d points",
