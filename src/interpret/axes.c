@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "field/refused.h"
 #include "interpret/interpret.h"
+#include "terms/coordinates.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,6 +139,30 @@ static void describe_axis(fg__grid_axis *axis, const fg__variable *coordinate, i
   }
 }
 
+/* Refuses an axis whose units are those of longitudes and whose standard name or name is
+ * that of latitudes, and the reverse. */
+static void check_direction(fg__grid *grid, const fg__variable *coordinate)
+{
+  static const char *const called[] = {"a longitude", "a latitude"};
+  char standard[FG__TEXT_BYTES], units[FG__TEXT_BYTES];
+  fg__unit unit;
+  fg__attribute_text(coordinate, "standard_name", standard, sizeof standard);
+  fg__attribute_text(coordinate, "units", units, sizeof units);
+  fg__unit_read(&unit, units);
+  const fg__term name = {.name = standard[0] ? standard : coordinate->plain_name};
+  const fg__role by_units = unit.quantity == FG__QUANTITY_DEGREES_EAST    ? FG__ROLE_X
+                            : unit.quantity == FG__QUANTITY_DEGREES_NORTH ? FG__ROLE_Y
+                                                                          : FG__NO_ROLE,
+                 by_name = fg__geographic_role(&name);
+  if (by_units == FG__NO_ROLE || by_name == FG__NO_ROLE || by_units == by_name)
+    return;
+  fg__set_unusable(grid->unusable, "'%.60s' is %s by its %s, and %s by its units %.40s",
+                   coordinate->plain_name, called[by_name == FG__ROLE_Y],
+                   standard[0] ? "standard name" : "name", called[by_units == FG__ROLE_Y],
+                   units);
+  snprintf(grid->hint, sizeof grid->hint, "correct one of them in the file");
+}
+
 static bool is_longitude(const fg__grid_axis *axis)
 {
   return axis->quantity == FG__QUANTITY_DEGREES_EAST ||
@@ -149,6 +174,7 @@ fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
 {
   fg__grid_axis *axis = &grid->axis[k];
   describe_axis(axis, coordinate, k);
+  check_direction(grid, coordinate);
   free(axis->coordinate);
   axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
   if (!axis->coordinate)

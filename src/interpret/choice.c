@@ -217,8 +217,8 @@ static fg_status check_order(const fg__dataset *data, const candidates *all,
 static const fg__variable *find_vector(const fg__dataset *data, const char *name)
 {
   const fg__variable *v = find_named(data, name, 0);
-  const fg__variable *end = data->variables + data->variable_count;
-  if (v && v->element == 0 && v + 1 < end && strcmp(v->name, v[1].name) == 0)
+  const bool is_last = v && v == &data->variables[data->variable_count - 1];
+  if (v && v->element == 0 && !is_last && strcmp(v->name, v[1].name) == 0)
     ++v; /* which is also there as a whole */
   return v && v->element == 1 ? v : NULL;
 }

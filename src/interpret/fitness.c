@@ -1,7 +1,11 @@
 /* Whether variables can be a vector's components: numeric, not larger than the file can
  * hold, and at the same places. */
 #include "interpret/interpret.h"
+#include "terms/coordinates.h"
+#include "terms/names.h"
+#include "terms/text.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -38,6 +42,22 @@ void fg__check_variable(fg__grid *grid, const fg__variable *v)
   else if (v->rank > FG__RANK)
     fg__set_unusable(grid->unusable, "'%s' has more than %d dimensions", v->name,
                      FG__RANK);
+}
+
+void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__variable *v)
+{
+  for (int k = 0; k < v->rank; ++k) {
+    const fg__dimension *d = &data->dimensions[v->dimension[k]];
+    if (d->length == 0)
+      fg__set_unusable(grid->unusable, "dimension '%.120s' is empty", d->name);
+    else if (d->length >= INT_MAX)
+      fg__set_unusable(grid->unusable, "dimension '%.120s' has %zu samples, more than %d",
+                       d->name, d->length, INT_MAX - 1);
+    for (int n = 0; n < k; ++n)
+      if (v->dimension[n] == v->dimension[k])
+        fg__set_unusable(grid->unusable, "'%.60s' lies along dimension '%.60s' twice",
+                         v->plain_name, d->name);
+  }
 }
 
 static bool fits_file(const fg__dataset *data, const fg__variable *v, size_t samples)
@@ -172,6 +192,105 @@ void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variabl
           u->plain_name, data->dimensions[u->dimension[k]].name, v->plain_name,
           data->dimensions[v->dimension[k]].name);
     }
+}
+
+typedef struct said {
+  const char *source, *text;
+  int component; /* 0 to the east, 1 to the north; -1: nothing is known */
+} said;
+
+enum { SOURCES = 3 };
+
+/* What a component's name, standard name and long name say. */
+static bool list_said(said out[SOURCES], const fg__term *term)
+{
+  out[0] = (said){"name", fg__last_part(term->name), -1};
+  out[1] = (said){"standard name", term->standard_name, -1};
+  out[2] = (said){"long name", term->long_name, -1};
+  for (int n = 1; n < SOURCES; ++n)
+    if (out[n].text)
+      out[n].component = fg__component_in_words(out[n].text);
+  return fg__component_of_name(&out[0].component, out[0].text);
+}
+
+fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair)
+{
+  said of[2][SOURCES];
+  fg__term term[2];
+  if (pair->polar.sense != 0)
+    return FG_STATUS_OK;
+  for (int k = 0; k < 2; ++k) {
+    term[k] = fg__term_of(pair->component[k]);
+    if (!list_said(of[k], &term[k]))
+      return fg__fail_memory(data->context, "names", 0);
+    for (int n = 1; n < SOURCES; ++n)
+      if (of[k][n].text && fg__counts_backwards(of[k][n].text))
+        fg__set_unusable(grid->unusable,
+                         "'%.60s' is counted to the west or south: %s '%.80s'",
+                         of[k][0].text, of[k][n].source, of[k][n].text);
+  }
+  for (int n = 1; n < SOURCES; ++n)
+    if (of[0][n].text && of[1][n].text &&
+        fg__counts_downward(of[0][n].text) * fg__counts_downward(of[1][n].text) < 0)
+      fg__set_unusable(grid->unusable,
+                       "one component is counted upward, the other downward: %ss '%.80s' "
+                       "and '%.80s'",
+                       of[0][n].source, of[0][n].text, of[1][n].text);
+  for (int n = 0; n < SOURCES; ++n)
+    for (int m = n + 1; m < SOURCES; ++m)
+      if (of[0][n].component >= 0 && of[0][n].component == of[1][m].component &&
+          of[1][n].component >= 0 && of[1][n].component == of[0][m].component &&
+          of[0][n].component != of[1][n].component)
+        fg__set_unusable(grid->unusable,
+                         "'%.60s' is the component to the %s by its %s, and to the %s by "
+                         "its %s '%.80s'",
+                         of[0][0].text, of[0][n].component ? "north" : "east",
+                         of[0][n].source, of[0][m].component ? "north" : "east",
+                         of[0][m].source, of[0][m].text);
+  if (grid->unusable[0])
+    snprintf(grid->hint, sizeof grid->hint,
+             "--vars EAST,NORTH takes them as they are named there");
+  return FG_STATUS_OK;
+}
+
+/* The first variable of a place's name that is none of the vector's; NULL: there is none.
+ */
+static const fg__variable *find_place(const fg__dataset *data, const fg__pair *pair,
+                                      int role)
+{
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    const bool is_place =
+        (int)v->geographic == role ||
+        fg__column_fits(v->plain_name, (fg__column_use)(FG__COLUMN_X + role)) == 2;
+    if (is_place && v->rank > 0 && fg__is_number(v) && v != pair->component[0] &&
+        v != pair->component[1])
+      return v;
+  }
+  return NULL;
+}
+
+void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                            const fg_read_options *options)
+{
+  if (grid->scale != FG_SCALE_PLAIN || options->scale != FG_SCALE_AUTO ||
+      grid->unusable[0] || grid->mesh)
+    return;
+  for (int k = 0; k < 2; ++k) {
+    const fg__variable *along =
+        fg__grid_axis_coordinate(data, grid, pair->component[0], k);
+    if (along && !fg__may_be_index(along))
+      return;
+  }
+  const fg__variable *x = find_place(data, pair, FG__ROLE_X),
+                     *y = find_place(data, pair, FG__ROLE_Y);
+  for (int k = 0; k < 2 && x && y; ++k)
+    if (fg__grid_axis_coordinate(data, grid, pair->component[0], k) == (k == 0 ? x : y))
+      return;
+  if (x && y)
+    fg__doubt(grid->doubts,
+              "axes count the samples of '%.60s': '%.60s' and '%.60s' do not lie there",
+              pair->component[0]->plain_name, x->plain_name, y->plain_name);
 }
 
 /* Whether the file has both components at a time and level. */

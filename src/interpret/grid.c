@@ -6,7 +6,6 @@
 #include "terms/frame.h"
 #include "terms/text.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,18 +16,6 @@ static const size_t MOST_SAMPLES = (size_t)1 << 31;
 static bool is_usable(const fg__grid *grid)
 {
   return grid->unusable[0] == '\0';
-}
-
-static void check_lengths(fg__grid *grid, const fg__dataset *data, const fg__variable *v)
-{
-  for (int k = 0; k < v->rank; ++k) {
-    const fg__dimension *d = &data->dimensions[v->dimension[k]];
-    if (d->length == 0)
-      fg__set_unusable(grid->unusable, "dimension '%.120s' is empty", d->name);
-    else if (d->length >= INT_MAX)
-      fg__set_unusable(grid->unusable, "dimension '%.120s' has %zu samples, more than %d",
-                       d->name, d->length, INT_MAX - 1);
-  }
 }
 
 static void set_index_axis(const fg__dataset *data, const fg__variable *v, fg__role role,
@@ -453,7 +440,7 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
     for (int k = 0; k < 2; ++k)
       fg__check_variable(grid, pair->component[k]);
   for (int k = 0; k < 2 && is_usable(grid); ++k)
-    check_lengths(grid, data, pair->component[k]);
+    fg__check_dimensions(grid, data, pair->component[k]);
   if (is_usable(grid) && !grid->unstructured)
     status = find_dimensions(grid, data, pair->component[0]);
   fg__quantity velocity;
@@ -469,6 +456,7 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
     status = find_on_faces(grid, data, pair, options);
   if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
     check_units(grid, pair, &velocity);
+  fg__tell_unused_places(grid, data, pair, options);
   return status;
 }
 
@@ -477,9 +465,11 @@ fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair 
 {
   if (data->space.is_there)
     return fg__space_find(grid, data, pair, options);
-  const fg_status status = find_grid(grid, data, pair, options);
+  fg_status status = find_grid(grid, data, pair, options);
   if (status == FG_STATUS_OK && is_usable(grid))
     fg__check_polar(grid, pair, options);
+  if (status == FG_STATUS_OK && is_usable(grid) && !options->vars)
+    status = fg__check_names(grid, data, pair);
   return status;
 }
 

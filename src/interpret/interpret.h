@@ -163,7 +163,18 @@ typedef struct fg__grid {
  * has coordinates; and finds an array of booleans called mask, as numpy.ma has them. */
 void fg__check_nameless(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
 
-/* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
+/* fitness.c. Refuses dimensions that are empty, too long, or there twice. */
+void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
+
+/* Refuses two components of which names, standard names and long names say the
+ * opposite, or that are counted to the west or south. MEMORY. */
+fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
+
+/* Doubts a grid whose axes count samples though the file has places. */
+void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                            const fg_read_options *options);
+
+/* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
  * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
  * it. */
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,

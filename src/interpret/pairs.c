@@ -163,13 +163,16 @@ static bool add_found(pair_list *pairs, const fg__dataset *data, const candidate
                      .found_by = v->found_by,
                      .rank = v->rank,
                      .is_velocity = v->is_velocity};
-    int components = 0;
+    int components = 0, across = -1;
+    for (int k = 0; k < 2 && rules.at_points && v->component[2] >= 0; ++k)
+      if (v->component[k] >= 0 && is_plane_across(data, k))
+        across = k;
     if (v->component[1] >= 0 && !has_own_name(all->variable[v->component[1]]))
       pair.found_by = "columns";
     for (int k = 0; k < 3; ++k)
-      if (v->component[k] >= 0)
+      if (v->component[k] >= 0 && k != across)
         pair.component[components++] = all->variable[v->component[k]];
-      else if (v->is_upright)
+      else if (v->is_upright || k == across)
         pair.across = 1 + k;
     const bool lies_elsewhere =
         data->space.is_there ? v->polar.sense != 0

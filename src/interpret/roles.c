@@ -1,6 +1,7 @@
 /* Which dimension is x, y, time and level: by the coordinates' attributes (CF
  * conventions, chapter 4), then by their names, then by their order. */
 #include "interpret/interpret.h"
+#include "terms/coordinates.h"
 
 #include <string.h>
 
@@ -28,11 +29,24 @@ static bool lies_along(const fg__dataset *data, const fg__variable *v, int dimen
            fg__alike_dimension(data, v->dimension[0], dimension)));
 }
 
+/* Whether a coordinate is one of space by its name alone, as "lon" or "y". */
+static bool is_called_place(const fg__variable *v)
+{
+  for (int use = FG__COLUMN_X; use <= FG__COLUMN_LATITUDE; ++use)
+    if (fg__column_fits(v->plain_name, (fg__column_use)use) == 2)
+      return true;
+  return false;
+}
+
+/* The coordinate of a dimension: the variable of its name; else one whose attributes say
+ * that it is one; else the only one with a place's name, for several are those of
+ * points. */
 const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
                                    int k)
 {
   const int dimension = variable->dimension[k];
-  const fg__variable *otherwise = NULL;
+  const fg__variable *otherwise = NULL, *called = NULL;
+  int places = 0;
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     if (!lies_along(data, v, dimension))
@@ -41,8 +55,12 @@ const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *
       return v;
     if (!otherwise && role_of_attributes(v) != FG__NO_ROLE)
       otherwise = v;
+    if (is_called_place(v)) {
+      called = v;
+      ++places;
+    }
   }
-  return otherwise;
+  return otherwise || places != 1 ? otherwise : called;
 }
 
 /* Whether a variable names a coordinate, or xarray lists it for the file. */

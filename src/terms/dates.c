@@ -174,8 +174,10 @@ bool fg__date_of_number(double value, const char *units, const char *calendar, c
   int months;
   int64_t rest;
   fg__date reference;
-  if (fg__is_same(units, FG__ABSOLUTE_DATES))
+  if (fg__is_one_of(FG__ABSOLUTE_DATES, units, strlen(units)))
     return write_absolute(out, size, value);
+  if (fg__is_one_of(FG__ABSOLUTE_MONTHS, units, strlen(units)))
+    return write_absolute(out, size, 100.0 * floor(value) + 1.0);
   if (!fg__calendar_find(&kind, calendar) ||
       !read_reference(units, &unit, &months, &reference, &offset) ||
       !(fabs(value) * months <= LARGEST_DAYS / 31.0))

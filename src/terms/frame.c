@@ -6,11 +6,11 @@
 #include <string.h>
 
 const char *const fg__angle_names[][2] = {
-    {"angle", NULL},        {"ANGLE", NULL},  {"Angle", NULL},
-    {"ANGLET", NULL},       {"anglet", NULL}, {"grid_angle", NULL},
-    {"gridrot_0", NULL},    {"pang", NULL},   {"COSALPHA", "SINALPHA"},
-    {"AngleCS", "AngleSN"}, {"CS", "SN"},     {"cos_rot", "sin_rot"},
-    {"cosrot", "sinrot"},   {NULL, NULL}};
+    {"angle", NULL},          {"ANGLE", NULL},        {"Angle", NULL},
+    {"ANGLET", NULL},         {"anglet", NULL},       {"grid_angle", NULL},
+    {"gridrot_0", NULL},      {"pang", NULL},         {"angle_dx", NULL},
+    {"COSALPHA", "SINALPHA"}, {"AngleCS", "AngleSN"}, {"CS", "SN"},
+    {"cos_rot", "sin_rot"},   {"cosrot", "sinrot"},   {NULL, NULL}};
 
 const char *const fg__mask_names[] = {"wetdry_mask_rho", "mask_rho", "tmask", "maskC",
                                       "hFacC",           "wet",      "wet_c", NULL};

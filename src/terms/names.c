@@ -5,6 +5,7 @@
 #include "terms/text.h"
 #include "terms/units.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* Where words may stand for components. */
@@ -408,4 +409,39 @@ int fg__plainness(const char *first, const char *second)
 bool fg__is_upward_velocity(const char *standard_name)
 {
   return strncmp(standard_name, "upward_", 7) == 0 && strstr(standard_name, "velocity");
+}
+
+int fg__component_in_words(const char *words)
+{
+  bool found[2] = {false, false};
+  for (int row = 0; row < WORD_ROWS; ++row)
+    for (int k = 0; k < 2 && WORDS[row].inside && WORDS[row].standard; ++k)
+      found[k] = found[k] || fg__find_text(words, WORDS[row].word[k]) != NULL;
+  return found[0] == found[1] ? -1 : found[1];
+}
+
+bool fg__counts_backwards(const char *words)
+{
+  return fg__contains_any(words, "westward|southward") &&
+         fg__component_in_words(words) < 0;
+}
+
+int fg__counts_downward(const char *words)
+{
+  return (fg__find_text(words, "downward") != NULL) -
+         (fg__find_text(words, "upward") != NULL);
+}
+
+bool fg__component_of_name(int *out, const char *name)
+{
+  const fg__term term = {.name = name, .file = -1};
+  fg__patterns list = {0};
+  const bool memory = fg__patterns_add(&list, &term, 1, 0, true);
+  bool found[2] = {false, false};
+  for (size_t i = 0; i < list.count; ++i)
+    if (list.entry[i].component < 2)
+      found[list.entry[i].component] = true;
+  *out = found[0] == found[1] ? -1 : found[1];
+  free(list.entry);
+  return memory;
 }

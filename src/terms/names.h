@@ -5,6 +5,7 @@
 #ifndef FG__TERMS_NAMES_H
 #define FG__TERMS_NAMES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "terms/term.h"
@@ -50,6 +51,20 @@ bool fg__is_index(const fg__pattern *pattern);
 /* How plain a vector's names are: 0 for "u" and "v", then "vx" and "vy", ...; -1: they
  * have more words. */
 int fg__plainness(const char *first, const char *second);
+
+/* The one component, 0 or 1, that words name by a direction: "eastward", "meridional";
+ * -1: none, or both. */
+int fg__component_in_words(const char *words);
+
+/* Whether words count a component to the west or south, and not also to the opposite. */
+bool fg__counts_backwards(const char *words);
+
+/* 1 for a flux that is counted downward, -1 for one counted upward, 0 where words say
+ * neither. */
+int fg__counts_downward(const char *words);
+
+/* As fg__component_in_words, of a name: "u" or "v_wind". False: no memory. */
+bool fg__component_of_name(int *out, const char *name);
 
 /* Whether a standard name is of a velocity upwards. */
 bool fg__is_upward_velocity(const char *standard_name);

@@ -29,6 +29,18 @@ static const char *standard_name(const fg__term *term)
   return strpbrk(name, " \t") ? "" : name;
 }
 
+/* The same, or a name that could be one: "wind_from_direction", "wind_speed". */
+static const char *name_like_standard(const fg__term *term)
+{
+  static const char *const ends[] = {"_from_direction", "_to_direction", "_speed"};
+  const char *standard = standard_name(term), *name = fg__last_part(term->name);
+  const size_t length = strlen(name);
+  for (size_t i = 0; i < sizeof ends / sizeof *ends && !standard[0]; ++i)
+    if (length > strlen(ends[i]) && strcmp(name + length - strlen(ends[i]), ends[i]) == 0)
+      return name;
+  return standard;
+}
+
 /* Radians in a unit of angles, "degrees", "deg true" or "rad"; 0: it is none. */
 static double unit_of(const char *units)
 {
@@ -170,9 +182,9 @@ static int speed_by_standard_name(const fg__term *terms, size_t count,
 {
   char mover[NAME_BYTES], other[NAME_BYTES];
   int found = -1;
-  mover_of(mover, standard_name(direction));
+  mover_of(mover, name_like_standard(direction));
   for (size_t i = 0; mover[0] && i < count; ++i) {
-    const char *standard = standard_name(&terms[i]);
+    const char *standard = name_like_standard(&terms[i]);
     mover_of(other, standard);
     if (terms[i].place != direction->place || !strstr(standard, "_speed") ||
         strcmp(mover, other) != 0)
@@ -218,8 +230,8 @@ int fg__speed_of(fg__polar *out, const fg__term *terms, size_t count, size_t dir
   const fg__term *way = &terms[direction];
   if (!fg__direction_read(out, way) && !is_synoptic(way, 0))
     return -1;
-  return standard_name(way)[0] ? speed_by_standard_name(terms, count, way)
-                               : speed_by_name(terms, count, way);
+  const int named = standard_name(way)[0] ? -1 : speed_by_name(terms, count, way);
+  return named >= 0 ? named : speed_by_standard_name(terms, count, way);
 }
 
 int fg__direction_among(fg__polar *out, const fg__term *a, const fg__term *b)

@@ -34,6 +34,8 @@ static const unit_row UNITS[] = {
     {LENGTH, 1852.0, "nmi", "nmi|nautical_mile|nautical mile"},
     {TIME, 1.0, "s", "s|sec|second"},
     {TIME, 1e-3, "ms", "ms|msec|millisec|millisecond"},
+    {TIME, 1e-6, "µs", "us|usec|microsec|microsecond"},
+    {TIME, 1e-9, "ns", "ns|nsec|nanosec|nanosecond"},
     {TIME, 60.0, "min", "min|minute"},
     {TIME, 3600.0, "h", "h|hr|hour"},
     {TIME, 86400.0, "d", "d|day"},
@@ -158,7 +160,8 @@ void fg__unit_read(fg__unit *out, const char *text)
   *out = (fg__unit){.quantity = FG__QUANTITY_UNKNOWN};
   snprintf(out->label, sizeof out->label, "%s", text);
   simplify(text, plain);
-  if (strstr(plain, " since ") || fg__is_same(text, FG__ABSOLUTE_DATES)) {
+  if (strstr(plain, " since ") ||
+      fg__is_one_of(FG__ABSOLUTE_DATES "|" FG__ABSOLUTE_MONTHS, text, strlen(text))) {
     out->quantity = FG__QUANTITY_DATE;
     return;
   }

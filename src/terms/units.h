@@ -32,7 +32,8 @@ typedef struct fg__unit {
 } fg__unit;
 
 /* The other unit of dates, which CDI writes (ICON, ECHAM): the number 20200115.25. */
-#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f"
+#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f|YYYYMMDD|%Y%m%d"
+#define FG__ABSOLUTE_MONTHS "month as %Y%m.%f|YYYYMM|%Y%m"
 
 void fg__unit_read(fg__unit *out, const char *text);
 

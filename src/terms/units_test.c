@@ -138,6 +138,12 @@ static void dates_follow_the_calendar(void **state)
   assert_date(0.0, "hours since 2001-03-01 12:00 UTC", "", "2001-03-01 12:00");
   assert_date(20200115.25, "day as %Y%m%d.%f", "proleptic_gregorian", "2020-01-15 06:00");
   assert_date(20200229.0, "day as %Y%m%d.%f", "", "2020-02-29");
+  assert_date(20200229.0, "YYYYMMDD", "", "2020-02-29");
+  assert_date(202002.5, "month as %Y%m.%f", "", "2020-02-01");
+  assert_date(202002.0, "yyyymm", "", "2020-02-01");
+  assert_date(202013.0, "YYYYMM", "", NULL);
+  assert_date(1e15, "microseconds since 1970-01-01", "", "2001-09-09 01:46:40");
+  assert_date(1e18, "nanoseconds since 1970-01-01", "", "2001-09-09 01:46:40");
   assert_date(3.0, "milliseconds since 2001-03-01T12:00:59.9995Z", "",
               "2001-03-01 12:01");
   assert_date(1.0, "days since 1900-02-28", "julian", "1900-02-29");

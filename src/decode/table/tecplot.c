@@ -282,7 +282,7 @@ static fg_status read_cells(fg__tecplot *r, fg__zone *z)
                         nx * (cell / (nx - 1) + (corner > 1)));
     if (status == FG_STATUS_OK && !(number >= 1.0 && number <= (double)z->points))
       status = fail(r, "a cell with a corner that is no node", "");
-    else
+    if (status == FG_STATUS_OK)
       z->node[n] = (int)number;
   }
   return status;
@@ -350,13 +350,11 @@ bool fg__has_zones(const fg__source *source)
   int zones = 0;
   while (!special && fg__table_next(&line, &cursor) && line.size <= FG__TABLE_LINE) {
     char text[FG__TECPLOT_WORD];
-    const bool digit =
-        line.size > 0 && fg__is_digit(line.text[strspn(line.text, " \t-+.")]);
-    if (digit)
-      continue;
     snprintf(text, sizeof text, "%.*s",
              (int)(line.size < FG__TECPLOT_WORD ? line.size : FG__TECPLOT_WORD - 1),
              line.text);
+    if (fg__is_digit(text[strspn(text, " \t-+.")]))
+      continue;
     variables = variables || begins(&line, "variables");
     zones += begins(&line, "zone");
     special = zones > 1 || (zones > 0 && fg__contains_any(text, others));

@@ -61,6 +61,37 @@ static void equal_layers_are_a_plane(void **state)
   }
 }
 
+/* Coordinates of two axes and all three components: those along the two are meant. The
+ * flow is 1 along x, 2 along y and 3 along z. */
+static void planes_have_the_components_along_them(void **state)
+{
+  static const struct {
+    const char *columns;
+    double flow[2];
+  } cases[] = {{"x,y,u,v,w", {1.0, 2.0}},
+               {"x,z,u,v,w", {1.0, 3.0}},
+               {"y,z,u,v,w", {2.0, 3.0}},
+               {"x,z,vx,vy,vz", {1.0, 3.0}},
+               {"y,z,Velocity:0,Velocity:1,Velocity:2", {2.0, 3.0}},
+               {"x,z,u,w", {1.0, 2.0}}};
+  char text[TEXT_BYTES];
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    size_t used = (size_t)snprintf(text, sizeof text, "%s\n", cases[i].columns);
+    const bool two = strlen(cases[i].columns) < strlen("x,z,u,v,w");
+    for (int n = 0; n < N * N; ++n)
+      used += (size_t)snprintf(text + used, sizeof text - used, "%d,%d,1,2%s\n", n % N,
+                               n / N, two ? "" : ",3");
+    fg_field *field = read_text(*state, text);
+    const fg_field_arrays *f = fg_field_contents(field);
+    assert_int_equal(f->dimension, 2);
+    for (int k = 0; k < 2; ++k)
+      if ((double)f->velocity[k][N + 1] != cases[i].flow[k])
+        fail_msg("%s: component %d is %g", cases[i].columns, k,
+                 (double)f->velocity[k][N + 1]);
+    fg_field_destroy(field);
+  }
+}
+
 /* Five lines at 0 to 4 and five more, u = the place across them. */
 #define FIVE(row, b) row("0", b) row("1", b) row("2", b) row("3", b) row("4", b)
 #define UPWARD(a, b) a "," b "," a ",1\n"
@@ -178,6 +209,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(equal_layers_are_a_plane),
+      cmocka_unit_test(planes_have_the_components_along_them),
       cmocka_unit_test(shapes_are_read_or_refused),
       cmocka_unit_test(zones_may_end_anywhere),
   };
