@@ -187,8 +187,6 @@ static const fg__format fg__format_script = {.name = "script",
                                              .files = "scripts",
                                              .is_mine = is_script,
                                              .inventory = inventory_hook,
-                                             .inventory_chosen = chosen_hook,
-                                             .defaults = defaults_hook,
                                              .read = read_hook,
                                              .sphere = sphere_hook};
 
@@ -202,14 +200,11 @@ static void try_options(const uint8_t *bytes, size_t size)
       {.vars = "speed,direction"}, {.at = "member=1"},       {.mask = "mask"}};
   fg_context *context;
   fg__sphere *sphere = NULL;
-  fg_read_defaults defaults;
   if (!is_script(bytes, size) || fg_context_create(&context))
     return;
   const fg__source source = {.path = "fuzz.script", .bytes = bytes, .size = size};
   const fg_read_options *chosen = &options[size % (sizeof options / sizeof *options)];
   read_part(&fg__format_script, context, &source, chosen, (fg__slab_index){0, 1});
-  defaults_hook(&defaults, context, &source, chosen);
-  fg_context_clear(context);
   if (sphere_hook(&sphere, context, &source, chosen) == FG_STATUS_OK)
     fg__sphere_destroy(sphere);
   fg_context_destroy(context);

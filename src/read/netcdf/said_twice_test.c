@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "read/netcdf/sample.h"
+#include "read/netcdf/sample_example.h"
 
 enum { ROWS = 6, COLUMNS = 8 };
 
