@@ -65,8 +65,9 @@ typedef struct fg_read_options {
  * composite files, what they name beside themselves. Sizes are checked before memory is
  * taken; fg_input_options (context.h) limits what the field's samples take. A chunk of a
  * NetCDF-4 file takes 256 MiB at most, once it is inflated, too. But libhdf5, under
- * NetCDF-4, and ecCodes, under GRIB, can crash or go on for ever where a file's structure
- * is damaged: fg_input_options.isolate keeps that from the process that calls them. Files
+ * NetCDF-4, and ecCodes, under GRIB, can crash, go on for ever, print or, ecCodes, take
+ * any memory where a file's structure is damaged: fg_input_options.isolate keeps that
+ * from the process that calls them. Files
  * are mapped: one that becomes shorter meanwhile is refused, FILE_ACCESS, but it can send
  * SIGBUS to the process before, which the program ends at (cli/interrupt.c). */
 FG_API fg_status fg_field_read(fg_field **out, fg_context *context, const char *input,
