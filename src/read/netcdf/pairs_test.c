@@ -124,7 +124,7 @@ static const situation SITUATIONS[] = {
     {.what = "numbers of times and levels",
      .file = "time[1] :units=yyyymmdd = 19900101; lev[1] :units=level = 992.5;" PLANE
              "float u(time,lev,lat,lon) = 1 2 3 4; float v(time,lev,lat,lon) = 1 2 3 4",
-     .field = "time 'time 19900101 yyyymmdd'|level 'lev 992.5'"},
+     .field = "time '1990-01-01'|level 'lev 992.5'"},
 };
 
 SITUATIONS_MAIN("read/netcdf/pairs", SITUATIONS)
