@@ -239,8 +239,8 @@ static void print_place(const char *what, const fg_selection *selected, int coun
   if (!words && count < 2)
     return;
   printf("  %s: %s", what, clean_text(text, words ? words : ""));
-  printf(count > 1 ? "%s(%d of 0 to %d)" : "", words ? " " : "", selected->index[0],
-         count - 1);
+  if (count > 1)
+    printf("%s(%d of 0 to %d)", words ? " " : "", selected->index[0], count - 1);
   if (selected->count > 1)
     printf(", the first of %d", selected->count);
   putchar('\n');

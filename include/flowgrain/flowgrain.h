@@ -33,11 +33,11 @@
  *
  * The manual is the headers that this one includes: context.h (statuses, messages,
  * ranks), field.h, dataset.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h,
- * energy.h and checkpoint.h (the work), density.h and icons.h (its results), placement.h (exactly
- * N arrows), run.h (scales), picture.h, view.h, solid.h, texture.h and brush.h (out),
- * rival.h (what to compare with), score.h (how good it is), words.h (suggestions for
- * misspelt words); and mpi.h (several processes), which it does not include. Each can be
- * included alone.
+ * energy.h and checkpoint.h (the work), density.h and icons.h (its results),
+ * placement.h (exactly N arrows), run.h (scales), picture.h, view.h, solid.h, texture.h
+ * and brush.h (out), rival.h (what to compare with), score.h (how good it is), words.h
+ * (suggestions for misspelt words); and mpi.h (several processes), which it does not
+ * include. Each can be included alone.
  *
  * The library flowgrain_core is this one without files: what reads or writes them,
  * checkpoints and all of picture.h, texture.h, brush.h and rival.h are not in it.

@@ -190,7 +190,7 @@ def test_refusals_are_said(field):
     before = window.GetInstance()
     window.SetInstance(window)
     try:
-        still = image((0 * field[0], 0 * field[1], *field[2:]))
+        still = image(field)
         still.GetPointData().GetArray("v").Fill(0.0)
         assert run(still).GetNumberOfCells() == 0
         assert "zero everywhere" in window.GetOutput()

@@ -394,8 +394,8 @@ static fg_status describe_grid(fg_inventory *inventory, const fg__dataset *data,
       .chosen = texts.chosen[0] ? texts.chosen : NULL,
       .periodic = {grid->axis[0].period > 0.0}};
   const bool on_axes = !grid->mesh && !grid->unstructured && !grid->domain;
+  fg__grid part = *grid; /* whose names the vector points to */
   if (on_axes) {
-    fg__grid part = *grid;
     if (status == FG_STATUS_OK && !grid->unusable[0])
       status = find_part(&part, data, pair, grid);
     if (status != FG_STATUS_OK)

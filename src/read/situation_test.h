@@ -133,7 +133,7 @@ static inline void describe_inventory(text_of *t, const fg_inventory *inventory)
 static inline bool is_at(const fg_field *field, const char *text, bool tangent)
 {
   const int dimension = fg_field_contents(field)->dimension;
-  double place[3], velocity[3] = {NAN, NAN, NAN};
+  double place[3], velocity[3] = {(double)NAN, (double)NAN, (double)NAN};
   char *end = NULL;
   for (int k = 0; k < dimension; ++k, text = end)
     place[k] = strtod(text, &end);

@@ -119,15 +119,15 @@ fg_status fg__hdf_count(size_t *out, const fg__variable *v)
 /* In boxes: each is as much of the outermost dimension as the numbers fill. */
 fg_status fg__hdf_read(double *out, const fg__variable *v, size_t first, size_t count)
 {
-  size_t step[FG__RANK], start[FG__RANK] = {0}, part[FG__RANK] = {1};
+  size_t step[FG__RANK], start[FG__RANK] = {0}, part[FG__RANK] = {1}, all = 1;
   if (v->rank == 0)
     return fg__variable_fetch(v, start, part, out);
-  for (int k = v->rank; k-- > 0;)
-    step[k] = k + 1 < v->rank ? step[k + 1] * length_of(v, k + 1) : 1;
+  for (int k = FG__RANK; k-- > 0; all *= k < v->rank ? length_of(v, k) : 1)
+    step[k] = all;
   while (count > 0) {
     int along = 0;
     size_t rest = first;
-    while (first % step[along] != 0 || count < step[along])
+    while (along + 1 < v->rank && (first % step[along] != 0 || count < step[along]))
       ++along;
     for (int k = 0; k < v->rank; rest %= step[k++]) {
       start[k] = rest / step[k];

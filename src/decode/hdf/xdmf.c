@@ -223,7 +223,7 @@ static fg_status choose_time(const xmlNode **grid, fg__dataset *data, fg__vtk *v
 /* Whether a grid, or one in it, has an attribute of a type; "": of any. */
 static bool has_attribute(fg__vtk *vtk, const xmlNode *grid, const char *type)
 {
-  for (const xmlNode *node = grid->children; node; node = node->next) {
+  for (const xmlNode *node = grid ? grid->children : NULL; node; node = node->next) {
     char word[FG__XDMF_WORD];
     if (fg__vtk_is_element(node, "Attribute")) {
       fg__xdmf_word(word, vtk, node, "AttributeType", "Type", "Scalar");

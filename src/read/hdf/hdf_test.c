@@ -204,11 +204,11 @@ static void parts_have_times(void **state)
   refuse(f, NULL, "type \"HyperTreeGrid\"");
 }
 
-/* Cut off anywhere, a file is refused; with a byte changed it may be another. */
+/* Cut off anywhere, a file is refused; with a byte changed it may be another. The HDF5
+ * library crashes on some: another process reads them. */
 static void damaged_files_do_no_harm(void **state)
 {
   sample_file *f = *state;
-  static const fg_read_options none = {0};
   static unsigned char bytes[MOST_BYTES];
   write_parts(f, false, (part_faults){.corner = 0});
   FILE *file = fopen(f->path, "rb");
@@ -216,15 +216,18 @@ static void damaged_files_do_no_harm(void **state)
   const size_t size = fread(bytes, 1, sizeof bytes, file);
   fclose(file);
   assert_true(size > 5000 && size < sizeof bytes);
-  for (size_t n = 50; n < 2 * size; n += 97) {
-    fg__source source = {.path = "bytes", .bytes = bytes, .size = n < size ? n : size};
+  fg_context_set_input(f->context, &(fg_input_options){.isolate = true});
+  for (size_t n = 50; n < 2 * size; n += 397) {
     fg_field *field = NULL;
     const unsigned char kept = bytes[n % size];
     if (n >= size)
       bytes[n % size] = (unsigned char)(kept ^ 0x81);
-    const fg_status status = fg__format_vtkhdf.read(&field, f->context, &source, &none,
-                                                    (fg__slab_index){0, 1});
-    bytes[n % size] = kept; /* cppcheck-suppress redundantAssignment */
+    file = fopen(f->path, "wb");
+    assert_non_null(file);
+    fwrite(bytes, 1, n < size ? n : size, file);
+    assert_int_equal(fclose(file), 0);
+    bytes[n % size] = kept;
+    const fg_status status = fg_field_read(&field, f->context, f->path, NULL);
     assert_true((field != NULL) == (status == FG_STATUS_OK));
     assert_true(n >= size || status != FG_STATUS_OK);
     fg_field_destroy(field);

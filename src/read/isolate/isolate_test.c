@@ -256,6 +256,7 @@ static void inventories_and_defaults_come_as_they_are(void **state)
   assert_string_equal(one->level_value[0].units, "hPa");
   assert_string_equal(two->level_value[1].words, "top");
   fg_inventory_destroy(answer.inventory);
+  fg_inventory_destroy(input.inventory);
   fg__isolation_end(&input.isolation);
 }
 

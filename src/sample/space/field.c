@@ -145,7 +145,7 @@ fg_status fg__space_field(fg_field **out, const fg__dataset *data, const fg__pai
   const size_t last = domain->size[domain->dimension - 1],
                row = fg__space_domain_row(domain);
   fg__rows rows = fg__rows_of(&slab, (int)last, false);
-  fg__grid part;
+  fg__grid part = *grid;
   const bool plane =
       domain->dimension == 2 && fg__pair_components(pair) == 3 && slab.count == 1;
   float *velocity[3] = {NULL, NULL, NULL};
@@ -222,7 +222,7 @@ static fg_status describe_part(fg_inventory_vector *vector, const fg__dataset *d
 {
   double *axis[3] = {NULL, NULL, NULL};
   fg_status status = create_axes(axis, data, grid->domain);
-  for (int k = 0; k < grid->dimension && status == FG_STATUS_OK; ++k) {
+  for (int k = 0; k < grid->domain->dimension && status == FG_STATUS_OK; ++k) {
     fg__region_range part;
     status = fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
                              grid->axis[k].name, axis[k], grid->axis[k].size);
