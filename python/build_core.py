@@ -162,34 +162,46 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
 
 void free(void *);
 
-/* names and attributes, src/terms */
-typedef struct fg__term {
-  const char *name, *standard_name, *long_name, *units;
-  int place, group, file;
-} fg__term;
-typedef struct fg__polar { int sense; ...; } fg__polar;
-typedef struct fg__vector {
-  int component[3];
-  bool is_upright;
-  fg__polar polar;
-  int rank;
+typedef int... fg_frame;
+#define FG_FRAME_AUTO ...
+#define FG_FRAME_EAST ...
+#define FG_FRAME_GRID ...
+typedef struct fg_read_options {
+  const char *vars;
+  fg_frame frame;
   ...;
-} fg__vector;
-typedef struct fg__vector_rules { bool apart; ...; } fg__vector_rules;
-bool fg__vectors_find(fg__vector **out, size_t *count, const fg__term *terms,
-                      size_t term_count, const fg__vector_rules *rules);
+} fg_read_options;
+typedef struct fg_attribute {
+  const char *name, *text;
+  const double *number;
+  size_t count;
+} fg_attribute;
+typedef struct fg_variable {
+  const char *name;
+  int rank;
+  const char *dimension[8];
+  size_t length[8];
+  bool is_number;
+  const fg_attribute *attribute;
+  size_t attributes;
+} fg_variable;
+typedef struct fg_variables {
+  const char *name;
+  const fg_variable *variable;
+  size_t count;
+  bool (*fetch)(void *user, size_t variable, const size_t *start, const size_t *count,
+                double *out);
+  void *user;
+} fg_variables;
+typedef struct fg_vector_meaning {
+  int component[3], coordinate[2], mask, side[2];
+  bool is_polar, is_geographic, is_along_grid;
+  ...;
+} fg_vector_meaning;
+fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
+                         const fg_variables *variables, const fg_read_options *options);
+extern "Python" bool fetch_numbers(void *, size_t, const size_t *, const size_t *, double *);
 double fg__unit_factor(const char *from, const char *to);
-bool fg__units_differ(const char *a, const char *b);
-int fg__geographic_role(const fg__term *term);
-int fg__role_of_attributes(const fg__term *term, const char *axis, bool has_positive);
-int fg__role_of_name(const char *name);
-bool fg__term_may_be_index(const fg__term *term);
-typedef struct fg__frame_evidence { bool staggered, angle, on_indices; ...; } fg__frame_evidence;
-int fg__frame_of_terms(char *why, size_t size, const fg__term *u, const fg__term *v,
-                       const fg__frame_evidence *evidence);
-bool fg__counts_cells(const char *dimension);
-const char *mask_name(int n);
-const char *angle_name(int n);
 """
 
 # cffi does not know pointers to constant arrays.
@@ -197,13 +209,7 @@ SOURCE_TEXT = """
 #include <flowgrain/flowgrain.h>
 #include <stdlib.h>
 
-#include "terms/coordinates.h"
-#include "terms/frame.h"
 #include "terms/units.h"
-#include "terms/vectors.h"
-
-static const char *mask_name(int n) { return fg__mask_names[n]; }
-static const char *angle_name(int n) { return fg__angle_names[n][0]; }
 
 static const double *icon_points(const fg_icon *icon) { return icon->points[0]; }
 

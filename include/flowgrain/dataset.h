@@ -44,6 +44,7 @@ typedef struct fg_variables {
 typedef struct fg_vector_meaning {
   int component[3];
   int coordinate[2]; /* along x and y, of one dimension or two; -1: samples are counted */
+  bool is_polar;     /* components are a speed and its direction */
   int mask;          /* of a model's grid: zero on land */
   bool is_geographic; /* coordinates are longitude and latitude */
   bool is_along_grid; /* components of a grid with coordinates in two dimensions */
@@ -53,8 +54,9 @@ typedef struct fg_vector_meaning {
 } fg_vector_meaning;
 
 /* Finds the vector that options name, or the only one of the best rank. options: NULL for
- * none. ARGUMENT (no such vector, or several), UNSUPPORTED, FILE_ACCESS (what cannot be
- * fetched), MEMORY. */
+ * none. Dimensions that are neither time nor level, such as members, are the caller's.
+ * ARGUMENT (no such vector, or several), UNSUPPORTED (also points and unstructured
+ * meshes), FILE_ACCESS (what cannot be fetched), MEMORY. */
 FG_API fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
                                 const fg_variables *variables,
                                 const fg_read_options *options);

@@ -13,7 +13,10 @@ from ._core import ffi, lib
 # what hints name, and what it is here
 OPTIONS = (("--scale plain", "scale='plain'"), ("Take a larger gamma or more", "Take more"),
            ("name the column of times or levels t or z, or leave", "leave"),
-           (" in the file", ""), ("leave such values empty, or write nan", "make it NaN"))
+           (" in the file", ""),
+           ("with --vars U,V", "with u and v"),
+           ("example with --vars", "example with u, v ="),
+           ("leave such values empty, or write nan", "make it NaN"))
 
 
 class Context:

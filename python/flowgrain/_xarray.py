@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from ._arrows import Arrows, _choice, arrows
-from ._dataset import eastward, find_coordinates, find_pair, role_of
-from ._model import FRAMES, centred, frame_of, positions, turned
+from ._dataset import FRAMES, eastward, meaning
+from ._model import centred, turned
 from ._grid import in_one_piece, ordered
 from ._plane import period_of
 
@@ -39,23 +39,22 @@ class DatasetFlowgrain:
     def _field(self, u: Any, v: Any, x: Any, y: Any, frame: str) -> _Field:
         if (u is None) != (v is None):
             raise ValueError("both u and v are needed, or none")
-        if u is None:
-            u, v = find_pair(self._dataset)
-        self._check_names(u=u, v=v, x=x, y=y)
-        _choice("frame", frame, FRAMES)
-        first, second, staggered = centred(self._dataset, self._dataset[u], self._dataset[v])
         if (x is None) != (y is None):
             raise ValueError("both x and y are needed, or none")
-        if x is None:
-            px, py, degrees = find_coordinates(first)
-        else:
-            px, py = self._dataset[x], self._dataset[y]
-            degrees = role_of(px) == "lon" and role_of(py) == "lat"
+        self._check_names(u=u, v=v, x=x, y=y)
+        _choice("frame", frame, tuple(FRAMES))
+        data = self._dataset if x is None else self._only(x, y)
+        found = meaning(data, u, v, frame)
+        first, second = centred(data, found)
+        px, py = (first[first.dims[-1 - k]] if name is None else self._dataset[name]
+                  for k, name in enumerate(found.coordinates if x is None else (x, y)))
+        degrees = found.is_geographic and x in (None, found.coordinates[0])
         px, py = eastward(px), eastward(py)
         plane = [*py.dims, *(d for d in px.dims if d not in py.dims)]
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
-                             f"two of {u}'s, {', '.join(map(str, first.dims))}, are needed")
+                             f"two of {first.name}'s, {', '.join(map(str, first.dims))}, are "
+                             "needed")
         for axis in (px, py):
             if axis.ndim == 1 and axis.dtype.kind in "iuf":
                 ordered(str(axis.name), axis.values)  # refuses by its name
@@ -65,10 +64,24 @@ class DatasetFlowgrain:
         if px.ndim == 2:
             px, py = px.transpose(*plane), py.transpose(*plane)
         first, second = (c.transpose(*others, *plane) for c in (first, second))
-        if frame == "auto":
-            frame = frame_of(self._dataset, first, second, staggered) or frame
-        first, second = self._in_frame(first, second, px, py, degrees, frame)
+        if degrees and found.is_along_grid and px.ndim == 2:
+            east, north = turned(first.values, second.values, px.values, py.values)
+            first, second = first.copy(data=east), second.copy(data=north)
+        elif x is not None and not degrees and frame == "east":
+            places = meaning(self._dataset, u, v, frame)
+            at = [self._dataset[k] for k in places.coordinates if k is not None]
+            if places.is_geographic and [set(c.dims) for c in at] == 2 * [set(plane)]:
+                lon, lat = (eastward(c).transpose(*plane).values for c in at)
+                east, north = turned(first.values, second.values, lon, lat, back=True)
+                first, second = first.copy(data=east), second.copy(data=north)
         return _Field(first, second, px, py, degrees, others)
+
+    def _only(self, x: Any, y: Any) -> xr.Dataset:
+        """Without other coordinates at the same places."""
+        places = {*self._dataset[x].dims, *self._dataset[y].dims}
+        others = [k for k, c in self._dataset.coords.items()
+                  if c.dims and set(c.dims) <= places and k not in (x, y)]
+        return self._dataset.drop_vars(others)
 
     def _check_names(self, **given: Any) -> None:
         for role, name in given.items():
@@ -81,24 +94,6 @@ class DatasetFlowgrain:
                 near = difflib.get_close_matches(str(name), known, len(known) or 1, 0.0)
                 raise ValueError(f"{role} is {name!r}, which is none of the variables that may be "
                                  f"it: {', '.join(near) or 'there is none'}") from None
-
-    def _in_frame(self, u: Any, v: Any, px: Any, py: Any, degrees: bool,
-                  frame: str) -> tuple[Any, Any]:
-        """Components along east and north on longitudes and latitudes, else along the axes."""
-        if degrees and px.ndim == 2:
-            if frame == "auto":
-                raise ValueError(
-                    f"{u.name} and {v.name} may be along east and north or along the lines of "
-                    "their curvilinear grid: frame='east' or frame='grid' says it")
-            if frame == "grid":
-                east, north = turned(u.values, v.values, px.values, py.values)
-                return u.copy(data=east), v.copy(data=north)
-        elif not degrees and frame == "east":
-            places = positions(self._dataset, u.dims[-2:])
-            if places is not None:
-                one, other = turned(u.values, v.values, places[0], places[1], back=True)
-                return u.copy(data=one), v.copy(data=other)
-        return u, v
 
     def arrows(self, u: str | None = None, v: str | None = None, *, x: str | None = None,
                y: str | None = None, frame: str = "auto",

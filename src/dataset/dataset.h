@@ -164,6 +164,7 @@ struct fg__dataset {
   double *time; /* those that the opening chose one of; NULL: not known */
   int times;    /* 0: there was no choice */
   bool has_blocks;
+  bool takes_all_samples; /* other dimensions than time and level are the caller's */
   fg__missing_numbers missing;
   const struct fg__projector *projector; /* NULL: projections are not known */
   fg__field_region region; /* that samples are wanted of, where they go on no map */

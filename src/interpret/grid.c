@@ -77,7 +77,7 @@ static fg_status find_dimensions(fg__grid *grid, const fg__dataset *data,
 {
   int position[FG__ROLES];
   const int extra = fg__roles_find(position, data, v);
-  if (extra >= 0) {
+  if (extra >= 0 && !data->takes_all_samples) {
     const fg__dimension *d = &data->dimensions[v->dimension[extra]];
     fg__set_unusable(grid->unusable,
                      "dimension '%.120s' of %zu samples is neither time nor level",

@@ -72,6 +72,7 @@ static void describe(fg_vector_meaning *out, const fg__dataset *data,
   const fg__curvilinear *mesh = grid->mesh;
   for (int k = 0; k < 3; ++k)
     out->component[k] = k < grid->dimension ? number_of(pair->component[k]) : -1;
+  out->is_polar = pair->polar.sense != 0;
   out->mask = mesh ? number_of(mesh->mask) : -1;
   out->is_geographic = mesh || grid->scale == FG_SCALE_GEO;
   out->is_along_grid = mesh && mesh->turn != FG__TURN_NONE;
@@ -111,6 +112,7 @@ fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
       &data, context, variables->name ? variables->name : "variables", 0, &DECODER);
   if (status == FG_STATUS_OK) {
     data.file[0].state = &own;
+    data.takes_all_samples = true;
     status = fg__dataset_add_group(&data) ? FG_STATUS_OK : FG_STATUS_MEMORY;
   }
   for (size_t n = 0; n < variables->count && status == FG_STATUS_OK; ++n)
@@ -119,7 +121,11 @@ fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
     status = fg__settle_names(&data);
   if (status == FG_STATUS_OK)
     status = fg__choose_vector(&pair, &grid, &data, options ? options : &none);
-  if (status == FG_STATUS_OK)
+  if (status == FG_STATUS_OK && grid.unstructured)
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                      "%s: '%.100s' lies at points or on an unstructured mesh",
+                      data.file[0].path, pair.component[0]->name);
+  else if (status == FG_STATUS_OK)
     describe(out, &data, &pair, &grid);
   fg__grid_clear(&grid);
   fg__dataset_close(&data);

@@ -12,7 +12,7 @@ typedef struct situation {
   const char *variable[MOST], *attribute[MOST];
   const char *vars;
   int component[2], coordinate[2], side[2];
-  bool is_geographic, is_along_grid;
+  bool is_geographic, is_along_grid, is_polar;
   const char *refusal; /* part of the message; NULL: it is understood */
 } situation;
 
@@ -106,6 +106,14 @@ static void variables_are_understood(void **state)
        .vars = "u100,v100",
        .component = {2, 3},
        .coordinate = {4, 5}},
+      {.variable = {"u(member,t,y,x)", "v(member,t,y,x)", "x(x)", "y(y)"},
+       .component = {0, 1},
+       .coordinate = {2, 3}},
+      {.variable = {"wspd(y,x)", "wdir(y,x)", "lon(x)", "lat(y)"},
+       .component = {0, 1},
+       .coordinate = {2, 3},
+       .is_geographic = true,
+       .is_polar = true},
       {.variable = {"p(y,x)", "q(y,x)"}, .refusal = "memory: no vectors found"},
       {.variable = {"u(y,x)", "v(y,x)", "broken(x)", "y(y)"},
        .attribute = {NULL, NULL, "axis\0X", "axis\0Y"},
@@ -123,6 +131,8 @@ static void variables_are_understood(void **state)
           found.coordinate[k] != s->coordinate[k] || found.side[k] != s->side[k])
         fail_msg("situation %zu, %d: component %d, coordinate %d, side %d", n, k,
                  found.component[k], found.coordinate[k], found.side[k]);
+    if (!s->refusal && found.is_polar != s->is_polar)
+      fail_msg("situation %zu: a speed and a direction %d", n, found.is_polar);
     if (!s->refusal && (found.is_geographic != s->is_geographic ||
                         found.is_along_grid != s->is_along_grid))
       fail_msg("situation %zu: geographic %d, along the grid %d", n, found.is_geographic,
