@@ -222,8 +222,8 @@ static void take_grid(fg_inventory_vector *vector, const fg_field *field)
   for (int k = 0; k < a->dimension && k < 3; ++k) {
     vector->axis_name[k] = a->axis_name[k];
     vector->size[k] = a->size[k];
-    vector->bounds[2 * k] = a->axis[k][0];
-    vector->bounds[2 * k + 1] = a->axis[k][a->size[k] - 1];
+    vector->bounds[2 * k] = fg_field_measured(field, k, a->axis[k][0]);
+    vector->bounds[2 * k + 1] = fg_field_measured(field, k, a->axis[k][a->size[k] - 1]);
     vector->periodic[k] = a->period[k] > 0.0;
   }
   vector->missing_share = fg_field_missing_share(field);
@@ -270,7 +270,11 @@ static void print_reading(const listing *list)
            list->reading.map.region[1], list->reading.map.region[2],
            list->reading.map.region[3]);
   take_grid(&as_read, list->field);
-  print_grid(&as_read, field->axis_units);
+  char text_of[3][CLEAN_BYTES];
+  const char *const units[3] = {text_of[0], text_of[1], text_of[2]};
+  for (int k = 0; k < field->dimension; ++k)
+    fg_field_measured_units(text_of[k], sizeof text_of[k], list->field, k);
+  print_grid(&as_read, units);
 }
 
 static void print_text(const listing *list)

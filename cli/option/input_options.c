@@ -1,7 +1,7 @@
 /* Options of the input and of its map. */
 #include "option/families.h"
 
-const char *const scale_words[] = {"auto", "geo", "map", "plain", NULL};
+const char *const scale_words[] = {"auto", "geo", "map", "plain", "log", NULL};
 const char *const frame_words[] = {"auto", "east", "grid", NULL};
 
 static const option_entry input_entries[] = {
@@ -72,7 +72,9 @@ static const option_entry input_entries[] = {
          "normal and a point; the components in the plane become a field in 2D"},
     {"scale", 0, "KIND", READERS, OPTION_CHOICE, READING(scale), .words = scale_words,
      .help = "what the axes are: `geo` (degrees, velocity along east and north), `map` "
-             "(a projected plane) or `plain` [auto: from units and axes]"},
+             "(a projected plane), `plain`, or `log` (a vertical section, by the "
+             "logarithm of its "
+             "pressures) [auto: from units and axes]"},
     {"frame", 0, "KIND", READERS, OPTION_CHOICE, READING(frame), .words = frame_words,
      .help = "what the components on a model's grid are along: `east` (and north) or "
              "`grid` (the directions of its indices) [auto: from names, attributes and "

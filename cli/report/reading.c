@@ -67,15 +67,19 @@ static void add_field(cJSON *root, const reading_facts *facts)
   json_add_words(read, "velocity", field->velocity_name, field->dimension);
   json_add_text(read, "velocity_units", field->velocity_units);
   json_add_words(read, "axes", field->axis_name, field->dimension);
-  json_add_words(read, "axis_units", field->axis_units, field->dimension);
   cJSON_AddItemToObject(read, "size",
                         cJSON_CreateIntArray(field->size, field->dimension));
   double bounds[6], periods[3];
+  char text[3][CLEAN_BYTES];
+  const char *const units[3] = {text[0], text[1], text[2]};
   for (int k = 0; k < field->dimension; ++k) {
-    bounds[2 * k] = field->axis[k][0];
-    bounds[2 * k + 1] = field->axis[k][field->size[k] - 1];
+    bounds[2 * k] = fg_field_measured(facts->field, k, field->axis[k][0]);
+    bounds[2 * k + 1] =
+        fg_field_measured(facts->field, k, field->axis[k][field->size[k] - 1]);
+    fg_field_measured_units(text[k], sizeof text[k], facts->field, k);
     periods[k] = field->period[k];
   }
+  json_add_words(read, "axis_units", units, field->dimension);
   json_add_numbers(read, "bounds", bounds, 2 * field->dimension);
   json_add_numbers(read, "period", periods, field->dimension);
   json_add_text(read, "scale", scale_words[field->scale]);

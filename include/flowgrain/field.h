@@ -14,7 +14,9 @@ typedef enum fg_scale {
   FG_SCALE_AUTO = 0, /* from units and axes */
   FG_SCALE_GEO,      /* axes in degrees, velocity along east and north */
   FG_SCALE_MAP,      /* projected plane: axes in a length, velocity along the axes */
-  FG_SCALE_PLAIN     /* axes without a known unit */
+  FG_SCALE_PLAIN,    /* axes without a known unit */
+  FG_SCALE_LOG       /* of reading: a vertical section whose heights or pressures are
+                        drawn by their logarithm; the field's is PLAIN */
 } fg_scale;
 
 typedef struct fg_map_options fg_map_options; /* map.h */
@@ -181,6 +183,13 @@ FG_API fg_status fg_plane_parse(fg_plane *out, fg_context *context, const char *
  * square of the velocity's component normal to the plane over that of the velocity, 0 to
  * 1; 0 for other fields and for slabs. */
 FG_API double fg_field_normal_share(const fg_field *field);
+
+/* What is measured at a coordinate of an axis, and its units: of a vertical section a
+ * height or a pressure, which is drawn on another scale (axis_units "-25 hPa": one of the
+ * axis is 25 hPa downwards); else the coordinate. */
+FG_API double fg_field_measured(const fg_field *field, int axis, double coordinate);
+FG_API void fg_field_measured_units(char *out, size_t size, const fg_field *field,
+                                    int axis);
 
 /* The 5 % and the 95 % quantile of the speed by area (volume), input units: for the ends
  * of a colour key that several fields share. ARGUMENT (a slab), MEMORY. */

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "field/measure.h"
 #include "field/slab.h"
 
 #include <math.h>
@@ -13,30 +14,34 @@ static const double ROUNDING = 1e-9;
 
 fg_status fg__region_clip(double *low, double *high, fg_context *context,
                           const char *path, const fg__field_region *region, int k,
-                          const char *axis)
+                          const char *axis, const char *units)
 {
   const double first = *low, last = *high;
   if (k >= region->axes)
     return FG_STATUS_OK;
-  *low = fmax(first, region->low[k]);
-  *high = fmin(last, region->high[k]);
+  const fg__measure m = fg__measure_of(units);
+  const double from = fg__measure_coordinate(&m, region->low[k]),
+               to = fg__measure_coordinate(&m, region->high[k]);
+  *low = fmax(first, fmin(from, to));
+  *high = fmin(last, fmax(from, to));
   if (*low < *high)
     return FG_STATUS_OK;
   return fg__fail(context, FG_STATUS_ARGUMENT,
                   "%s: nothing lies in the region: it goes from %s = %g to %g, and the "
                   "field from %g to %g",
-                  path, axis, region->low[k], region->high[k], first, last);
+                  path, axis, region->low[k], region->high[k],
+                  fg__measure_value(&m, first), fg__measure_value(&m, last));
 }
 
 fg_status fg__region_find(fg__region_range *out, fg_context *context, const char *path,
                           const fg__field_region *region, int k, const char *axis,
-                          const double *x, size_t size)
+                          const char *units, const double *x, size_t size)
 {
   size_t a = 0, b = size - 1;
   *out = (fg__region_range){0, size, x[0], x[b]};
   const double near = ROUNDING * (x[b] - x[0]) / (double)b;
   const fg_status status =
-      fg__region_clip(&out->low, &out->high, context, path, region, k, axis);
+      fg__region_clip(&out->low, &out->high, context, path, region, k, axis, units);
   if (status != FG_STATUS_OK || k >= region->axes)
     return status;
   while (a + 1 < size && x[a + 1] <= out->low + near)
@@ -52,11 +57,14 @@ fg_status fg__region_find(fg__region_range *out, fg_context *context, const char
     out->count = b - a + 1;
     return FG_STATUS_OK;
   }
+  const fg__measure m = fg__measure_of(units);
   return fg__fail(context, FG_STATUS_ARGUMENT,
                   "%s: no sample lies in the region: it goes from %s = %g to %g, and "
                   "samples lie at %g and %g (of %g to %g)",
-                  path, axis, region->low[k], region->high[k], x[a < b ? a : b],
-                  x[a < b ? b : a], x[0], x[size - 1]);
+                  path, axis, region->low[k], region->high[k],
+                  fg__measure_value(&m, x[a < b ? a : b]),
+                  fg__measure_value(&m, x[a < b ? b : a]), fg__measure_value(&m, x[0]),
+                  fg__measure_value(&m, x[size - 1]));
 }
 
 /* A part of a field that is being made. */
@@ -87,7 +95,8 @@ static fg_status find_ranges(part *p, fg_context *context, const char *path,
     const bool cut = k < region->axes;
     const size_t samples = (size_t)(cut ? axis->cells + 1 : axis->samples);
     status = fg__region_find(&p->range[k], context, path, region, k,
-                             whole->contents.axis_name[k], axis->coordinate, samples);
+                             whole->contents.axis_name[k], whole->contents.axis_units[k],
+                             axis->coordinate, samples);
     p->arrays.size[k] = (int)p->range[k].count;
     if (cut)
       p->arrays.period[k] = 0.0;

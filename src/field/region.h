@@ -18,17 +18,17 @@ typedef struct fg__region_range {
   double low, high; /* where the cut ends: the region's or the axis' bounds */
 } fg__region_range;
 
-/* Narrows bounds along axis k to those of the region. ARGUMENT, with both: they have
- * nothing in common. */
+/* Narrows bounds along axis k, of that name and units (field/measure.h), to those of the
+ * region, which are measured ones. ARGUMENT, with both: they have nothing in common. */
 fg_status fg__region_clip(double *low, double *high, fg_context *context,
                           const char *path, const fg__field_region *region, int k,
-                          const char *axis);
+                          const char *axis, const char *units);
 
 /* Finds the range of ascending coordinates along axis k. ARGUMENT also where no
  * coordinate lies in the region. */
 fg_status fg__region_find(fg__region_range *out, fg_context *context, const char *path,
                           const fg__field_region *region, int k, const char *axis,
-                          const double *coordinate, size_t size);
+                          const char *units, const double *coordinate, size_t size);
 
 /* Replaces a whole field by its part in the region, whose outermost samples are
  * interpolated where the region ends between two. What is missing on one side is missing

@@ -86,7 +86,7 @@ static fg_status find_dimensions(fg__grid *grid, const fg__dataset *data,
   }
   if (position[FG__ROLE_X] < 0 || position[FG__ROLE_Y] < 0) {
     fg__set_unusable(grid->unusable,
-                     "'%.120s' has only one dimension in space: a profile, a section "
+                     "'%.120s' has only one dimension in space: a profile "
                      "or an unstructured mesh",
                      v->name);
     return FG_STATUS_OK;
@@ -441,6 +441,12 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
       fg__check_variable(grid, pair->component[k]);
   for (int k = 0; k < 2 && is_usable(grid); ++k)
     fg__check_dimensions(grid, data, pair->component[k]);
+  int position[FG__ROLES];
+  if (is_usable(grid) && !grid->unstructured &&
+      fg__section_along(position, data, pair->component[0]) >= 0)
+    return fg__section_find(grid, data, pair, options);
+  if (options->scale == FG_SCALE_LOG)
+    fg__set_unusable(grid->unusable, "--scale log is for vertical sections");
   if (is_usable(grid) && !grid->unstructured)
     status = find_dimensions(grid, data, pair->component[0]);
   fg__quantity velocity;
@@ -479,6 +485,8 @@ void fg__grid_clear(fg__grid *grid)
     free(grid->axis[k].coordinate);
     grid->axis[k].coordinate = NULL;
   }
+  free(grid->rate);
+  grid->rate = NULL;
   fg__curvilinear_destroy(grid->mesh);
   grid->mesh = NULL;
   fg__unstructured_destroy(grid->unstructured);

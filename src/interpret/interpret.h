@@ -149,6 +149,9 @@ typedef struct fg__grid {
   char time_name[FG__DIMENSION_BYTES], level_name[FG__DIMENSION_BYTES];
   fg_scale scale;
   char projection[2 * FG__TEXT_BYTES]; /* PROJ string of scale MAP; "": not known */
+  double *rate; /* of a vertical section: what the vertical component is multiplied by in
+                   each of its rows; NULL: it is none */
+  char section[FG__TEXT_BYTES]; /* where it lies, and how its component is drawn */
   bool points_east;             /* components along east and north, not along the axes */
   size_t samples;               /* product of the axes' sizes */
   const struct fg__grid *whole; /* of which it is the part in a region; or NULL */
@@ -267,6 +270,20 @@ bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
  * the projection, the grid is off_axes. MEMORY, FILE_ACCESS. */
 fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,
                               const fg__variable *u);
+
+/* section.c. Whether a variable lies in a vertical plane: along levels and longitude or x
+ * (0), or latitude or y (1); -1: it does not. */
+int fg__section_along(int position[FG__ROLES], const fg__dataset *data,
+                      const fg__variable *v);
+
+/* Replaces the components of a pair in such a plane by the one along it and the only one
+ * along the vertical, where there is one. */
+void fg__section_settle(fg__pair *pair, const fg__dataset *data);
+
+/* Finds the grid of such a pair. Its levels become coordinates that grow upwards, on the
+ * scale of the other axis (field/measure.h). MEMORY, FILE_ACCESS. */
+fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
+                           const fg_read_options *options);
 
 /* volume.c. Makes the grid of the first two components three-dimensional when there is a
  * third component, all levels form one axis in space, and the axes have one unit. Where

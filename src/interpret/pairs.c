@@ -174,9 +174,13 @@ static bool add_found(pair_list *pairs, const fg__dataset *data, const candidate
         pair.component[components++] = all->variable[v->component[k]];
       else if (v->is_upright || k == across)
         pair.across = 1 + k;
+    int position[FG__ROLES];
+    fg__section_settle(&pair, data);
     const bool lies_elsewhere =
-        data->space.is_there ? v->polar.sense != 0
-                             : v->is_upright && !is_plane_across(data, pair.across - 1);
+        data->space.is_there
+            ? v->polar.sense != 0
+            : v->is_upright && !is_plane_across(data, pair.across - 1) &&
+                  fg__section_along(position, data, pair.component[0]) < 0;
     memory = lies_elsewhere || append(pairs, &pair);
   }
   free(found);

@@ -125,6 +125,11 @@ fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
     status = fg__fail(context, FG_STATUS_UNSUPPORTED,
                       "%s: '%.100s' lies at points or on an unstructured mesh",
                       data.file[0].path, pair.component[0]->name);
+  else if (status == FG_STATUS_OK && grid.rate)
+    status = fg__fail(context, FG_STATUS_UNSUPPORTED,
+                      "%s: '%.100s' lies in a vertical section, which is read from its "
+                      "file",
+                      data.file[0].path, pair.component[0]->name);
   else if (status == FG_STATUS_OK)
     describe(out, &data, &pair, &grid);
   fg__grid_clear(&grid);

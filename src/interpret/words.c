@@ -457,6 +457,11 @@ fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
         fg__chosen_words(data, pair->component[0], false, out->level, sizeof out->level);
   if (status != FG_STATUS_OK)
     return status;
+  if (grid->section[0]) {
+    const size_t used = strlen(out->level);
+    snprintf(out->level + used, sizeof out->level - used, "%s%s", used > 0 ? ", " : "",
+             grid->section);
+  }
   fg__vector_title(pair, grid->dimension, out->title, sizeof out->title);
   fg__velocity_units(out->units, sizeof out->units, pair);
   return status;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field/measure.h"
 #include "picture/plain_text.h"
 #include "picture/units.h"
 
@@ -106,31 +107,39 @@ static void append(char out[FG__AXIS_BYTES], const char *text)
 void fg__axis_of_numbers(fg__tick_axis *out, double low, double high, double extent,
                          const char *name, const char *units)
 {
-  *out = (fg__tick_axis){FG__TICKS_NUMBER, low, high, 1.0, 0.0, "", ""};
+  const fg__measure measure = fg__measure_of(units);
+  *out = (fg__tick_axis){measure.logarithmic ? FG__TICKS_LOGARITHM : FG__TICKS_NUMBER,
+                         low,
+                         high,
+                         measure.factor,
+                         0.0,
+                         "",
+                         ""};
   char symbol[FG__UNITS_BYTES];
-  fg__units_write(symbol, units);
-  double metres = fg__units_metres(units);
+  fg__units_write(symbol, measure.units);
+  double metres = measure.logarithmic ? 0.0 : fg__units_metres(measure.units);
   if (metres > 0.0) {
     const char *suited = symbol;
-    out->factor = suit_length(metres, extent, &suited);
+    out->factor *= suit_length(metres, extent * fabs(out->factor), &suited);
     char kept[FG__UNITS_BYTES];
     snprintf(kept, sizeof kept, "%s", suited);
     memcpy(symbol, kept, sizeof kept);
   }
-  double range = fmax(high - low, extent) * out->factor;
-  double largest = fmax(fabs(low), fabs(high)) * out->factor;
+  const double size = measure.logarithmic ? 0.0 : fabs(out->factor);
+  double range = fmax(high - low, extent) * size;
+  double largest = fmax(fabs(low), fabs(high)) * size;
   char shown_name[FG__UNITS_BYTES + 40];
   char clean_name[FG__UNITS_BYTES];
   fg__text_clean(clean_name, sizeof clean_name, name ? name : "");
   snprintf(shown_name, sizeof shown_name, "%s", clean_name);
   if (largest > range * pow(10.0, LABEL_DIGITS - 2)) {
-    double grain = pow(10.0, ceil(log10(range))) / out->factor;
+    double grain = pow(10.0, ceil(log10(range))) / size;
     out->offset = floor(low / grain) * grain;
     snprintf(shown_name, sizeof shown_name, "%s %s %.12g", clean_name,
-             out->offset < 0.0 ? "+" : MINUS, fabs(out->offset * out->factor));
-    largest = fmax(fabs(low - out->offset), fabs(high - out->offset)) * out->factor;
+             out->offset * out->factor < 0.0 ? "+" : MINUS, fabs(out->offset * size));
+    largest = fmax(fabs(low - out->offset), fabs(high - out->offset)) * size;
   }
-  int exponent = common_exponent(fmax(largest, extent * out->factor));
+  int exponent = common_exponent(fmax(largest, extent * size));
   char power[48] = "";
   if (exponent != 0) {
     out->factor *= pow(10.0, -exponent);
@@ -165,10 +174,62 @@ static double decimal_step(double least)
   return 10.0 * power;
 }
 
+/* Which numbers of a decade have ticks, and the least interval of their logarithms; after
+ * them only whole powers of ten, each second, ... */
+static const struct {
+  double interval, number[10];
+} decades[] = {{0.04575, {1, 2, 3, 4, 5, 6, 7, 8, 9}},
+               {0.12493, {1, 1.5, 2, 3, 5, 7}},
+               {0.30103, {1, 2, 5}}};
+enum { DECADES = sizeof decades / sizeof *decades };
+
+static double logarithmic_step(double least)
+{
+  for (int k = 0; k < DECADES; ++k)
+    if (decades[k].interval >= least * (1.0 - step_slack))
+      return decades[k].interval;
+  return fmax(ceil(least - step_slack), 1.0);
+}
+
+static void fill_logarithmic(fg__ticks *out, const fg__tick_axis *axis)
+{
+  const double step = out->step * fabs(axis->factor);
+  const double low = fmin(axis->low * axis->factor, axis->high * axis->factor);
+  const double high = fmax(axis->low * axis->factor, axis->high * axis->factor);
+  const double every = fmax(1.0, round(step));
+  static const double powers[] = {1, 0};
+  const double *number = powers;
+  for (int k = 0; k < DECADES; ++k)
+    if (fabs(decades[k].interval - step) < 1e-4)
+      number = decades[k].number;
+  for (double decade = floor(low / every) * every; decade <= high; decade += every)
+    for (int k = 0; number[k] > 0.0; ++k) {
+      const double at = decade + log10(number[k]);
+      if (at < low - step_slack || at > high + step_slack)
+        continue;
+      if (out->count == FG__TICK_LIMIT) {
+        out->count = 0;
+        return;
+      }
+      /* coordinates ascend where logarithms descend */
+      int n = out->count++;
+      for (; n > 0 && axis->factor < 0.0; --n) {
+        out->position[n] = out->position[n - 1];
+        memcpy(out->text[n], out->text[n - 1], sizeof out->text[n]);
+      }
+      const double value = number[k] * pow(10.0, decade);
+      out->position[n] = fmin(fmax(at / axis->factor, axis->low), axis->high);
+      write_number(out->text[n], value, decimals_of(value));
+    }
+}
+
 double fg__ticks_step(const fg__tick_axis *axis, double least)
 {
+  const double size = fabs(axis->factor);
   if (axis->style == FG__TICKS_NUMBER)
-    return decimal_step(least * axis->factor) / axis->factor;
+    return decimal_step(least * size) / size;
+  if (axis->style == FG__TICKS_LOGARITHM)
+    return logarithmic_step(least * size) / size;
   static const double degrees[] = {10.0, 15.0, 20.0, 30.0, 45.0, 60.0, 90.0, 180.0};
   if (least <= 5.0 * (1.0 + step_slack))
     return decimal_step(least);
@@ -180,8 +241,8 @@ double fg__ticks_step(const fg__tick_axis *axis, double least)
 
 double fg__ticks_step_below(const fg__tick_axis *axis, double step)
 {
-  /* Neighbours are at most a factor 2.5 apart and at least 4/3. */
-  for (double share = 0.8; share > 0.3; share -= 0.05) {
+  /* Neighbours are at most a factor 2.5 apart, of logarithms 3.4, and at least 4/3. */
+  for (double share = 0.8; share > 0.28; share -= 0.05) {
     double below = fg__ticks_step(axis, share * step);
     if (below < step * (1.0 - step_slack))
       return below;
@@ -193,13 +254,17 @@ void fg__ticks_fill(fg__ticks *out, const fg__tick_axis *axis, double step)
 {
   out->count = 0;
   out->step = step;
+  if (axis->style == FG__TICKS_LOGARITHM) {
+    fill_logarithmic(out, axis);
+    return;
+  }
   double low = (axis->low - axis->offset) / step;
   double high = (axis->high - axis->offset) / step;
   double first = ceil(low - step_slack);
   double last = floor(high + step_slack);
   if (!(last - first < FG__TICK_LIMIT))
     return;
-  int decimals = decimals_of(step * axis->factor);
+  int decimals = decimals_of(step * fabs(axis->factor));
   for (double k = first; k <= last; k += 1.0) {
     int n = out->count++;
     double value = k * step * axis->factor;

@@ -8,6 +8,7 @@ enum { FG__TICK_LIMIT = 24, FG__TICK_BYTES = 40, FG__AXIS_BYTES = 320 };
 
 typedef enum fg__tick_style {
   FG__TICKS_NUMBER,
+  FG__TICKS_LOGARITHM, /* of a number, whose decimal logarithm is coordinate * factor */
   FG__TICKS_LONGITUDE,
   FG__TICKS_LATITUDE
 } fg__tick_style;
@@ -30,8 +31,9 @@ typedef struct fg__ticks {
   char text[FG__TICK_LIMIT][FG__TICK_BYTES];
 } fg__ticks;
 
-/* An axis of numbers: lengths in the unit that suits `extent` (the larger extent of the
- * axes that share it), a power of ten or an offset in the label instead of long numbers.
+/* An axis of numbers, on the scale of its units (field/measure.h): lengths in the unit
+ * that suits `extent` (the larger extent of the axes that share it), a power of ten or an
+ * offset in the label instead of long numbers.
  */
 void fg__axis_of_numbers(fg__tick_axis *out, double low, double high, double extent,
                          const char *name, const char *units);

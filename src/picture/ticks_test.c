@@ -24,10 +24,12 @@ static void texts_read_back_as_positions(void **state)
   static const struct {
     double low, high;
     const char *units;
-  } cases[] = {{0.13, 0.87, ""},           {-3.7, 12.1, "m"},    {2e5, 9.4e5, "m"},
-               {1e-5, 1.7e-4, ""},         {3.1e6, 8.8e6, ""},   {6.5e6, 6.71e6, "m"},
-               {1234567.2, 1234567.9, ""}, {-40.0, -39.0, "km"}, {0.0, 3e-4, "m"},
-               {-1e8, -1e8 + 7.0, "cm"},   {2.0, 90000.0, "mm"}};
+  } cases[] = {
+      {0.13, 0.87, ""},           {-3.7, 12.1, "m"},     {2e5, 9.4e5, "m"},
+      {1e-5, 1.7e-4, ""},         {3.1e6, 8.8e6, ""},    {6.5e6, 6.71e6, "m"},
+      {1234567.2, 1234567.9, ""}, {-40.0, -39.0, "km"},  {0.0, 3e-4, "m"},
+      {-1e8, -1e8 + 7.0, "cm"},   {2.0, 90000.0, "mm"},  {-40.0, -4.0, "-25 hPa"},
+      {0.0, 6.0, "2000 m"},       {-6.0, 0.0, "-2000 m"}};
   for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
     double low = cases[c].low, high = cases[c].high, range = high - low;
     fg__tick_axis axis;
@@ -46,6 +48,32 @@ static void texts_read_back_as_positions(void **state)
                       1e-6 * range);
       }
     }
+  }
+}
+
+/* Of pressures from 1000 to 10 hPa, 100 long. */
+static void logarithms_have_numbers_of_their_decades(void **state)
+{
+  (void)state;
+  static const struct {
+    int parts;
+    const char *texts;
+  } cases[] = {{2, "1000 100 10"},
+               {4, "1000 100 10"},
+               {7, "1000 500 200 100 50 20 10"},
+               {17, "1000 700 500 300 200 150 100 70 50 30 20 15 10"}};
+  fg__tick_axis axis;
+  fg__axis_of_numbers(&axis, -150.0, -50.0, 100.0, "level", "-0.02 lg(re 1 hPa)");
+  assert_string_equal(axis.label, "level (hPa)");
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
+    fg__ticks ticks;
+    char all[FG__TICK_LIMIT * FG__TICK_BYTES] = "";
+    fg__ticks_fill(&ticks, &axis, fg__ticks_step(&axis, 100.0 / cases[c].parts));
+    for (int k = 0; k < ticks.count; ++k) {
+      snprintf(all + strlen(all), FG__TICK_BYTES, "%s%s", k ? " " : "", ticks.text[k]);
+      assert_true(fabs(-0.02 * ticks.position[k] - log10(atof(ticks.text[k]))) < 1e-9);
+    }
+    assert_string_equal(all, cases[c].texts);
   }
 }
 
@@ -179,6 +207,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(texts_read_back_as_positions),
+      cmocka_unit_test(logarithms_have_numbers_of_their_decades),
       cmocka_unit_test(steps_are_nice_and_large_enough),
       cmocka_unit_test(steps_of_degrees_divide_the_circle),
       cmocka_unit_test(longitudes_cross_the_date_line_and_the_circle),

@@ -1,6 +1,7 @@
 /* Fields, spheres and inventories of datasets of any format. */
 #include "read/vector_choice.h"
 
+#include "field/measure.h"
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
@@ -105,11 +106,13 @@ static fg_status find_part(fg__grid *out, const fg__dataset *data, const fg__pai
     fg__region_range part;
     const fg_status status =
         fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
-                        axis->name, axis->coordinate, axis->size);
+                        axis->name, axis->units, axis->coordinate, axis->size);
     if (status != FG_STATUS_OK)
       return status;
     axis->first += axis->reversed ? axis->size - part.first - part.count : part.first;
     axis->coordinate += part.first;
+    if (out->rate && k == 1)
+      out->rate += part.first;
     axis->size = part.count;
     out->samples *= part.count;
   }
@@ -297,6 +300,11 @@ static const char *describe_frame(char *out, size_t size, const fg__grid *grid)
 {
   if (grid->mesh)
     return grid->mesh->rule;
+  if (grid->rate) {
+    snprintf(out, size, "in a vertical section%s%s", grid->section[0] ? ", " : "",
+             grid->section);
+    return out;
+  }
   if (!grid->projection[0])
     return grid->faces.used ? "along the axes (a staggered grid)" : NULL;
   snprintf(out, size, "%s of %s",
@@ -322,16 +330,18 @@ static void describe_axes(fg_inventory_vector *vector, const fg__grid *grid,
 {
   for (int k = 0; k < grid->dimension; ++k) {
     const fg__grid_axis *axis = &grid->axis[k];
+    double *bounds = &vector->bounds[2 * k];
+    const fg__measure measure = fg__measure_of(axis->units);
     vector->size[k] = (int)axis->size;
     vector->axis_name[k] = axis->name;
     if (axis->coordinate) {
-      vector->bounds[2 * k] = axis->coordinate[0];
-      vector->bounds[2 * k + 1] = axis->coordinate[axis->size - 1];
+      bounds[0] = axis->coordinate[0];
+      bounds[1] = axis->coordinate[axis->size - 1];
     }
-    if (grid->whole && k < region->axes) {
-      vector->bounds[2 * k] = fmax(vector->bounds[2 * k], region->low[k]);
-      vector->bounds[2 * k + 1] = fmin(vector->bounds[2 * k + 1], region->high[k]);
-    }
+    if (grid->whole)
+      fg__region_clip(&bounds[0], &bounds[1], NULL, "", region, k, "", axis->units);
+    for (int end = 0; end < 2 && axis->coordinate; ++end)
+      bounds[end] = fg__measure_value(&measure, bounds[end]);
   }
 }
 

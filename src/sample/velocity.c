@@ -258,6 +258,15 @@ static fg_status settle_missing(const fg__velocity_samples *out, const source *f
              : status;
 }
 
+/* The vertical component of a section, in the ratio of its axes. */
+static void scale_vertical(float *w, const source *from)
+{
+  const size_t row = row_size(from->grid);
+  const double *rate = from->grid->rate + from->rows->first;
+  for (size_t n = 0; n < row * (size_t)from->rows->held; ++n)
+    w[n] = fg__as_velocity(rate[n / row] * (double)w[n]);
+}
+
 static fg_status read_samples(fg__velocity_samples *out, const source *from)
 {
   const size_t count = row_size(from->grid) * (size_t)from->rows->held;
@@ -271,6 +280,8 @@ static fg_status read_samples(fg__velocity_samples *out, const source *from)
                                 from->pair->component[1]->plain_name);
   if (status == FG_STATUS_OK && from->grid->faces.used)
     close_walls(out->velocity, count);
+  if (status == FG_STATUS_OK && from->grid->rate)
+    scale_vertical(out->velocity[1], from);
   return status;
 }
 

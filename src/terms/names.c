@@ -411,6 +411,26 @@ bool fg__is_upward_velocity(const char *standard_name)
   return strncmp(standard_name, "upward_", 7) == 0 && strstr(standard_name, "velocity");
 }
 
+bool fg__is_vertical(const fg__term *term)
+{
+  static const char names[] = "w|wz|uz|vz|wa|wo|wap|omega|omg|dzdt|dpdt|vvel|wvel|velz|"
+                              "velw|wwnd|wwind|wcomp|wcomponent|vovecrtz";
+  const char *standard = or_empty(term->standard_name);
+  fg__token tokens[FG__MOST_TOKENS];
+  const int count = fg__split_name(tokens, term->name);
+  if (standard[0])
+    return fg__is_upward_velocity(standard) ||
+           strstr(standard, "tendency_of_air_pressure") ||
+           strstr(standard, "expressed_as_tendency_of_pressure");
+  for (int n = 0; n < count && n < FG__MOST_TOKENS; ++n) {
+    const fg__token core = fg__without_digits(term->name, tokens[n]);
+    if (fg__is_one_of(names, term->name + core.start, core.length))
+      return true;
+  }
+  return fg__contains_any(term->name, "vertical|upward") ||
+         fg__contains_any(or_empty(term->long_name), "vertical|upward|omega");
+}
+
 int fg__component_in_words(const char *words)
 {
   bool found[2] = {false, false};

@@ -69,4 +69,8 @@ bool fg__component_of_name(int *out, const char *name);
 /* Whether a standard name is of a velocity upwards. */
 bool fg__is_upward_velocity(const char *standard_name);
 
+/* Whether a component is along the vertical by its standard name, name or long name: a
+ * velocity upwards, or the tendency of pressure. */
+bool fg__is_vertical(const fg__term *term);
+
 #endif

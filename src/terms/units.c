@@ -145,11 +145,20 @@ static void read_quotient(fg__unit *out, const char *plain)
   const unit_row *way = find_unit(above), *time = find_unit(below);
   if (!way || !time || time->quantity != TIME)
     return;
-  const bool angle =
-      way->quantity == FG__QUANTITY_DEGREES || way->quantity == FG__QUANTITY_RADIANS;
-  if (!angle && way->quantity != LENGTH)
+  switch (way->quantity) {
+  case FG__QUANTITY_DEGREES:
+  case FG__QUANTITY_RADIANS:
+    out->quantity = FG__QUANTITY_ANGULAR_SPEED;
+    break;
+  case LENGTH:
+    out->quantity = SPEED;
+    break;
+  case PRESSURE:
+    out->quantity = FG__QUANTITY_PRESSURE_TENDENCY;
+    break;
+  default:
     return;
-  out->quantity = angle ? FG__QUANTITY_ANGULAR_SPEED : SPEED;
+  }
   out->factor = way->factor / time->factor;
   snprintf(out->label, sizeof out->label, "%s/%s", way->label, time->label);
 }

@@ -34,6 +34,13 @@ export function withUnits(x, units, figures = 3) {
   return shortNumber(x, figures) + (units ? ` ${unitsOf(units)}` : "");
 }
 
+/** What is measured at a coordinate whose units are those of another scale: "-25 hPa". */
+export function measured(x, units, figures) {
+  const [, factor, logarithm, own] = /^(-?[\d.]+(?:e[-+]?\d+)?) (lg\(re 1 )?(.*?)\)?$/.exec(units) ?? [];
+  if (!factor) return withUnits(x, units, figures);
+  return withUnits(logarithm ? 10 ** (factor * x) : factor * x, own, figures);
+}
+
 /** Words for the speeds, directions and places of a run's field. */
 export function tellerOf(run, field) {
   const placeOf = locator(field.places, run.axes === "degrees");
@@ -55,7 +62,7 @@ export function tellerOf(run, field) {
   function placeWords(x, y) {
     const place = placeOf(x, y);
     if (place) return degrees(...place);
-    return `${run.xName} ${withUnits(x, run.xUnits, 4)}, ${run.yName} ${withUnits(y, run.yUnits, 4)}`;
+    return `${run.xName} ${measured(x, run.xUnits, 4)}, ${run.yName} ${measured(y, run.yUnits, 4)}`;
   }
 
   return { speedWords, directionWords, placeWords };

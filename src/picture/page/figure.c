@@ -60,9 +60,15 @@ static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
   bool shared = strcmp(field->axis_units[0], field->axis_units[1]) == 0;
   double larger = fmax(high[0] - low[0], high[1] - low[1]);
   for (int k = 0; k < 2; ++k)
-    fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
-                        shared ? larger : high[k] - low[k], field->axis_name[k],
-                        field->axis_units[k]);
+    if (strcmp(field->axis_units[k], "°E") == 0 ||
+        strcmp(field->axis_units[k], "°N") == 0)
+      fg__axis_of_degrees(&plan->axis[k], low[k], high[k],
+                          strcmp(field->axis_units[k], "°E") == 0 ? FG__TICKS_LONGITUDE
+                                                                  : FG__TICKS_LATITUDE);
+    else
+      fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
+                          shared ? larger : high[k] - low[k], field->axis_name[k],
+                          field->axis_units[k]);
 }
 
 /* Lengths in kilometres on the ground, where a map has about one scale; elsewhere no key

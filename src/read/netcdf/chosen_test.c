@@ -91,7 +91,7 @@ static const situation SITUATIONS[] = {
     REFUSED("member=0:1,version=0", "'member=0:1' are 2 samples"),
     REFUSED("member=all,version=0", "'member=all' are 3 samples"),
     REFUSED("member=0,version=0,letters=1", "'u' and 'v' have no dimension 'letters'"),
-    UNSUPPORTED("member=0,version=0,x=1", "its x axis 'x' has only 1"),
+    UNSUPPORTED("member=0,version=0,x=1", "'u' points east, across the vertical section"),
     {.what = "an analytic field has no members",
      .path = "synth:saddle",
      .options = {.at = "member=1"},

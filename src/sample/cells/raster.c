@@ -189,7 +189,7 @@ static fg_status find_part(cell_box *box, size_t *cells, const fg__cell_set *set
   for (int k = 0, n = 0; k < 3 && status == FG_STATUS_OK; ++k)
     if (k != set->flat) {
       status = fg__region_clip(&box->low[k], &box->high[k], set->context, set->path,
-                               &set->region, n, letters[k]);
+                               &set->region, n, letters[k], "");
       ++n;
     }
   for (size_t c = 0; c < set->count && set->region.axes > 0; ++c) {

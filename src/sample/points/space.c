@@ -202,7 +202,7 @@ static fg_status find_box(double low[3], double high[3], const fg__scatter *poin
       high[k] = fmax(high[k], points->position[k][i]);
     }
     status = fg__region_clip(&low[k], &high[k], points->context, points->path,
-                             &points->region, k, letters[k]);
+                             &points->region, k, letters[k], "");
   }
   return status;
 }

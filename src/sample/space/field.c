@@ -128,7 +128,7 @@ static fg_status find_rows(fg__rows *rows, fg__grid *part, const fg__dataset *da
     return FG_STATUS_OK;
   const fg_status status =
       fg__region_find(&range, data->context, data->file[0].path, region, last,
-                      grid->axis[last].name, axis, grid->axis[last].size);
+                      grid->axis[last].name, "", axis, grid->axis[last].size);
   if (status == FG_STATUS_OK) {
     *rows = (fg__rows){(int)range.first, (int)range.count, (int)range.count};
     part->axis[last].size = range.count;
@@ -225,7 +225,7 @@ static fg_status describe_part(fg_inventory_vector *vector, const fg__dataset *d
   for (int k = 0; k < grid->domain->dimension && status == FG_STATUS_OK; ++k) {
     fg__region_range part;
     status = fg__region_find(&part, data->context, data->file[0].path, &data->region, k,
-                             grid->axis[k].name, axis[k], grid->axis[k].size);
+                             grid->axis[k].name, "", axis[k], grid->axis[k].size);
     vector->size[k] = (int)part.count;
     vector->bounds[2 * k] = part.low;
     vector->bounds[2 * k + 1] = part.high;
