@@ -270,7 +270,7 @@ static void print_reading(const listing *list)
            list->reading.map.region[1], list->reading.map.region[2],
            list->reading.map.region[3]);
   take_grid(&as_read, list->field);
-  char text_of[3][CLEAN_BYTES];
+  char text_of[3][CLEAN_BYTES] = {{0}};
   const char *const units[3] = {text_of[0], text_of[1], text_of[2]};
   for (int k = 0; k < field->dimension; ++k)
     fg_field_measured_units(text_of[k], sizeof text_of[k], list->field, k);

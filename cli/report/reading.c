@@ -70,7 +70,7 @@ static void add_field(cJSON *root, const reading_facts *facts)
   cJSON_AddItemToObject(read, "size",
                         cJSON_CreateIntArray(field->size, field->dimension));
   double bounds[6], periods[3];
-  char text[3][CLEAN_BYTES];
+  char text[3][CLEAN_BYTES] = {{0}};
   const char *const units[3] = {text[0], text[1], text[2]};
   for (int k = 0; k < field->dimension; ++k) {
     bounds[2 * k] = fg_field_measured(facts->field, k, field->axis[k][0]);
