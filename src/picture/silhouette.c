@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "field/still.h"
 
 /* Nodes along the longest side, and at most that many times those of the data. */
 enum { NODES = 121, FINER = 2 };
@@ -16,10 +17,6 @@ enum { RIM = 4 };
 /* Passes of the binomial filter 1 2 1 along each axis. All of them wash away a vessel as
  * thin as a sample: there the surface is that after the first. */
 enum { PASSES = 4 };
-
-/* The field is mostly dead when more than half of it is slower than this share of the
- * root mean square. */
-static const double dead_speed = 0.1;
 
 /* The level, in speeds above which lies half of the sum of squares. */
 static const double level_share = 0.2;
@@ -135,17 +132,8 @@ static double strong_speed(const raster *r, double squares, double fastest)
 /* The share of what is valid that is slow. */
 static double slow_share(const raster *r)
 {
-  double squares = 0.0;
-  size_t valid = 0, slow = 0;
-  for (size_t i = 0; i < r->count; ++i)
-    if (r->value[i] >= 0.0F) {
-      ++valid;
-      squares += (double)r->value[i] * (double)r->value[i];
-    }
-  double limit = dead_speed * sqrt(squares / (double)valid);
-  for (size_t i = 0; i < r->count; ++i)
-    slow += r->value[i] >= 0.0F && (double)r->value[i] < limit;
-  return valid > 0 ? (double)slow / (double)valid : 0.0;
+  const double top = fg__top_speed(r->value, r->count);
+  return fg__slow_share(r->value, r->count, fg__usual_speed(r->value, r->count, top));
 }
 
 /* The level of speed that bounds what moves; 0 where most of the field does. */

@@ -139,7 +139,7 @@ static fg_status add_icon(fg_icons *icons, fg_context *context,
                     "the line of arrow %d ends where it begins", index);
   }
   icon.points = (const double(*)[3])points;
-  if (!(read->measure > 0.0))
+  if (!(read->moving > 0.0))
     icon.speed = fg__place_speed(search->domain, placed->seed.position);
   icon.kind = kind_of(search, &icon);
   set_width(&icon, search);

@@ -132,12 +132,18 @@ fg_status fg__place_measure_regions(fg__place_region *out, fg_context *context,
         if (all.owner[at] < 0 || !fg__place_subdomain_at(search->domain, point) ||
             !fg_field_velocity(search->domain->given, point, v))
           continue;
-        out[all.owner[at]].measure += cell;
-        out[all.owner[at]].speed += cell * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        fg__place_region *region = &out[all.owner[at]];
+        const double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        region->measure += cell;
+        if (!fg__place_has_speed(search->domain, speed))
+          continue;
+        const double counts = cell * fg__place_weight(search->domain, speed);
+        region->moving += counts;
+        region->speed += counts * speed;
       }
   for (int n = 0; n < search->count; ++n)
-    if (out[n].measure > 0.0)
-      out[n].speed /= out[n].measure;
+    if (out[n].moving > 0.0)
+      out[n].speed /= out[n].moving;
   clear(&all);
   return status;
 }

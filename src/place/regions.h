@@ -7,7 +7,8 @@
 /* An icon's region. */
 typedef struct fg__place_region {
   double measure; /* area or volume */
-  double speed;   /* mean |v| */
+  double moving;  /* of what moves */
+  double speed;   /* mean |v| of that */
 } fg__place_region;
 
 /* Measures the region of each icon of a search, by the cells of its raster; out[] is

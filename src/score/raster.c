@@ -1,6 +1,7 @@
 #include "score/raster.h"
 
 #include "base/memory.h"
+#include "field/still.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,9 +16,6 @@ enum { AMPLE_CELLS = 3 << 19, MOST_CELLS = 1 << 24 };
 
 /* By which they become wider until there are few enough. */
 static const double WIDENING = 1.05;
-
-/* Slower flow has no direction worth telling. */
-static const double STILL = 1e-3;
 
 /* Sets the cells along each axis, of about the wanted side; returns how many it takes. */
 static double set_size(fg__score_raster *raster, const fg__field_box *bounds)
@@ -112,12 +110,9 @@ static void fill_rows(void *argument, const fg__thread *thread)
 
 static void count_cells(fg__score_raster *raster)
 {
-  float fastest = 0.0F;
+  const double top = fg__top_speed(raster->speed, raster->cells);
   for (size_t n = 0; n < raster->cells; ++n)
-    fastest = raster->speed[n] > fastest ? raster->speed[n] : fastest;
-  const float least = (float)STILL * fastest;
-  for (size_t n = 0; n < raster->cells; ++n)
-    raster->counts[n] = raster->inside[n] && raster->speed[n] > least;
+    raster->counts[n] = raster->inside[n] && fg__moves((double)raster->speed[n], top);
 }
 
 fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "field/still.h"
 #include "place/domain/distance.h"
 #include "place/domain/gaps.h"
 
@@ -13,9 +14,13 @@
 /* Cells of the map along the longest side: two to a sample's distance, within these. */
 enum { FEWEST_2D = 128, MOST_2D = 512, FEWEST_3D = 48, MOST_3D = 112 };
 
-/* Much of the domain is dead where half of it is slower than this share of the root mean
- * square: a vessel in a box of noise (docs/method/placement.md). */
-static const double DEAD_SHARE = 0.1;
+/* Of the root mean square, where more than half of the domain is slow: what is slower is
+ * noise or a flank, and not in an arrow's mean speed. Noise whose median is a tenth of it
+ * stays below. */
+static const double NOISE = 1.0 / 3.0;
+
+/* Less of the domain that is still is stagnation points, part of the flow. */
+static const double RESTING = 0.01;
 
 /* The least share of the box that arrows are made for, which bounds the rasters' size
  * where next to nothing is valid or moves. */
@@ -27,9 +32,6 @@ static const double SMALL_BOX = 0.5;
 /* Narrow holes are filled where for them more than a share of the domain is too near to
  * a wall for a line of 25 arrows, a tenth of lambda. */
 static const double TOO_NEAR = 0.02, LEAST_TAKEN = 0.25;
-
-/* Slower than this share of the greatest speed there is no direction to read. */
-static const double STILL = 1e-3;
 
 static size_t map_count(const fg__place_domain *domain)
 {
@@ -125,9 +127,15 @@ double fg__place_weight(const fg__place_domain *domain, double speed)
   return domain->dead ? speed * speed / (speed * speed + square) : 1.0;
 }
 
+bool fg__place_has_speed(const fg__place_domain *domain, double speed)
+{
+  return domain->slow ? speed > NOISE * domain->root_mean_square
+                      : !domain->rests || fg__place_moves(domain, speed);
+}
+
 bool fg__place_moves(const fg__place_domain *domain, double speed)
 {
-  return speed > STILL * domain->greatest;
+  return fg__moves(speed, domain->top);
 }
 
 /* Takes the box of what is valid in a field with wide margins. */
@@ -237,25 +245,24 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "the field has no cell with a velocity on a raster of %zu cells",
                     map_count(domain));
-  double squares = 0.0, weights = 0.0;
-  domain->greatest = 0.0;
-  for (size_t n = 0; n < count; ++n) {
-    squares += (double)speed[n] * (double)speed[n];
-    domain->greatest = fmax(domain->greatest, (double)speed[n]);
-  }
-  domain->median = (double)value_of_rank(speed, count, count / 2);
+  double weights = 0.0;
+  size_t moving = 0;
+  domain->top = fg__top_speed(speed, count);
   domain->fast = (double)value_of_rank(speed, count, count - 1 - count / 20);
-  domain->root_mean_square = sqrt(squares / (double)count);
-  domain->dead =
-      domain->dimension == 3 && domain->median < DEAD_SHARE * domain->root_mean_square;
-  const bool all = domain->dead || fg__place_moves(domain, domain->median);
+  domain->root_mean_square = fg__usual_speed(speed, count, domain->top);
+  domain->slow = fg__slow_share(speed, count, domain->root_mean_square) > 0.5;
+  domain->dead = domain->dimension == 3 && domain->slow;
+  for (size_t n = 0; n < count; ++n)
+    moving += fg__place_moves(domain, (double)speed[n]);
+  domain->rests = (double)moving < (1.0 - RESTING) * (double)count;
+  const bool all = domain->dead || 2 * moving >= count;
   for (size_t n = 0; n < count; ++n)
     if (all || fg__place_moves(domain, (double)speed[n]))
       weights += fg__place_weight(domain, (double)speed[n]);
   double cell = pow(domain->spacing, domain->dimension);
   domain->whole = cell * (double)count;
   domain->measure = fmax(LEAST_SHARE * box_measure(domain),
-                         cell * weights / fg__place_weight(domain, domain->greatest));
+                         cell * weights / fg__place_weight(domain, domain->top));
   return FG_STATUS_OK;
 }
 

@@ -29,9 +29,12 @@ typedef struct fg__place_domain {
   double whole; /* area or volume of the domain */
   /* of what counts: less than the whole where half of it is dead or still */
   double measure;
-  double greatest;                       /* speed */
-  double median, fast, root_mean_square; /* fast: exceeded by a twentieth */
-  bool dead; /* most of the domain hardly moves: speed weighs */
+  double top;              /* speed (field/still.h) */
+  double fast;             /* speed exceeded by a twentieth */
+  double root_mean_square; /* of speeds up to the top */
+  bool rests; /* some of the domain is still */
+  bool slow;  /* most of the domain hardly moves, beside that */
+  bool dead;  /* and is a volume: speed weighs */
 } fg__place_domain;
 
 /* Maps the domain of a field; gaps (gaps.h) are no walls. The field must outlive it.
@@ -61,6 +64,10 @@ const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain
 
 /* Whether a speed is enough for a direction to be read. */
 bool fg__place_moves(const fg__place_domain *domain, double speed);
+
+/* Whether it is in an arrow's mean speed: what is still is not, nor, where most of the
+ * domain hardly moves, its noise. */
+bool fg__place_has_speed(const fg__place_domain *domain, double speed);
 
 /* What a point counts in (0, 1], by its speed. */
 double fg__place_weight(const fg__place_domain *domain, double speed);
