@@ -225,9 +225,8 @@ static bool trace_both(side both[2], const fg__place_domain *domain,
 }
 
 /* Adds `count` samples of a side, from `from` on by steps of 1 or -1. */
-static void take_samples(fg__place_line *out, const fg__place_domain *domain,
-                         const fg__place_scale *scale, const side *line, int from,
-                         int step, int count)
+static void take_samples(fg__place_line *out, const fg__place_scale *scale,
+                         const side *line, int from, int step, int count)
 {
   double inverse = 1.0 / scale->lambda;
   for (int n = 0, i = from; n < count && out->count < FG__PLACE_SAMPLES; ++n, i += step) {
@@ -236,7 +235,7 @@ static void take_samples(fg__place_line *out, const fg__place_domain *domain,
     double after = i + 1 < line->count ? line->at[i + 1] - line->at[i] : 0.0;
     for (int k = 0; k < 3; ++k) {
       out->position[k][out->count] =
-          (float)((sample->at.position[k] - domain->low[k]) * inverse);
+          (float)((sample->at.position[k] - scale->origin[k]) * inverse);
       out->tangent[k][out->count] = (float)sample->at.direction[k];
     }
     out->share[out->count++] = (float)((before + after) / 2.0 / scale->sampling);
@@ -259,11 +258,11 @@ void fg__place_trace_on(fg__place_line *out, const fg__place_domain *domain,
   out->count = 0;
   if (!trace_both(both, domain, scale, seed, steps))
     return;
-  take_samples(out, domain, scale, &both[0], both[0].count - 1, -1, both[0].count);
+  take_samples(out, scale, &both[0], both[0].count - 1, -1, both[0].count);
   out->seed = out->count - 1;
   double first = both[1].count > 1 ? both[1].at[1] / 2.0 / scale->sampling : 0.0;
   out->share[out->seed] += (float)first;
-  take_samples(out, domain, scale, &both[1], 1, 1, both[1].count - 1);
+  take_samples(out, scale, &both[1], 1, 1, both[1].count - 1);
   for (int n = 0; n < 2; ++n)
     out->way[n] = both[n].at[both[n].count - 1];
   out->length = out->way[0] + out->way[1];

@@ -12,7 +12,7 @@ static double distance_to(const fg__place_search *search, const fg__place_line *
   for (int n = 0; n < line->count; ++n) {
     double square = 0.0;
     for (int k = 0; k < search->scale.dimension; ++k) {
-      double way = (point[k] - search->domain->low[k]) / search->scale.lambda -
+      double way = (point[k] - search->scale.origin[k]) / search->scale.lambda -
                    (double)line->position[k][n];
       square += way * way;
     }

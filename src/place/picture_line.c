@@ -30,11 +30,11 @@ static const double STRAIGHT_COSINE = 0.99999390765779; /* a fifth of a degree *
 enum { MOST_STRAIGHT = 32 };
 
 /* The place of a line's sample. */
-static void place_of(double out[3], const fg__place_domain *domain,
-                     const fg__place_scale *scale, const fg__place_line *line, int n)
+static void place_of(double out[3], const fg__place_scale *scale,
+                     const fg__place_line *line, int n)
 {
   for (int k = 0; k < 3; ++k)
-    out[k] = domain->low[k] + (double)line->position[k][n] * scale->lambda;
+    out[k] = scale->origin[k] + (double)line->position[k][n] * scale->lambda;
 }
 
 /* Adds the points of one side of a line behind those of `points`, in small steps. */
@@ -82,14 +82,14 @@ static bool trace_finely(double (*points)[3], int *count, const fg__place_domain
   fg__place_tracing with = {domain, ERROR * scale->lambda, 0.0, -1.0};
   fg__place_tip start = {{0}, {0}};
   double end[3];
-  place_of(start.position, domain, scale, line, line->seed);
+  place_of(start.position, scale, line, line->seed);
   if (!fg__place_direction(domain, start.position, start.direction))
     return false;
   memcpy(points[0], start.position, sizeof *points);
   *count = 1;
   for (int n = 0; n < 2; ++n) {
     follow_side(points, count, &with, scale, &start, n ? 1.0 : -1.0, line->way[n]);
-    place_of(end, domain, scale, line, n ? line->count - 1 : 0);
+    place_of(end, scale, line, n ? line->count - 1 : 0);
     if (fg__distance(end, points[*count - 1]) > MOST_APART * scale->lambda)
       return false;
     if (n == 0)
@@ -99,9 +99,8 @@ static bool trace_finely(double (*points)[3], int *count, const fg__place_domain
 }
 
 /* A point of the cubic through two samples with their tangents, `t` from 0 to 1. */
-static void point_between(double out[3], const fg__place_domain *domain,
-                          const fg__place_scale *scale, const fg__place_line *line, int n,
-                          double t)
+static void point_between(double out[3], const fg__place_scale *scale,
+                          const fg__place_line *line, int n, double t)
 {
   double chord = 0.0, s = 1.0 - t;
   for (int k = 0; k < 3; ++k) {
@@ -114,20 +113,18 @@ static void point_between(double out[3], const fg__place_domain *domain,
     double slope = s * (double)line->tangent[k][n] - t * (double)line->tangent[k][n + 1];
     double at = s * s * (1.0 + 2.0 * t) * from + t * t * (1.0 + 2.0 * s) * to +
                 s * t * chord * slope;
-    out[k] = domain->low[k] + at * scale->lambda;
+    out[k] = scale->origin[k] + at * scale->lambda;
   }
 }
 
 /* The points of a line along the cubics through its samples. */
-static void follow_samples(double (*points)[3], int *count,
-                           const fg__place_domain *domain, const fg__place_scale *scale,
+static void follow_samples(double (*points)[3], int *count, const fg__place_scale *scale,
                            const fg__place_line *line)
 {
   *count = (line->count - 1) * FINE_EVERY + 1;
   for (int i = 0; i < *count; ++i) {
     int n = i / FINE_EVERY < line->count - 1 ? i / FINE_EVERY : line->count - 2;
-    point_between(points[i], domain, scale, line, n,
-                  (double)(i - n * FINE_EVERY) / FINE_EVERY);
+    point_between(points[i], scale, line, n, (double)(i - n * FINE_EVERY) / FINE_EVERY);
   }
 }
 
@@ -173,7 +170,7 @@ fg_status fg__place_trace_fine(double (**points)[3], int *count, fg_context *con
   if (!*points)
     return fg__fail_memory(context, "a line", MOST_FINE * sizeof **points);
   if (!trace_finely(*points, count, domain, scale, line))
-    follow_samples(*points, count, domain, scale, line);
+    follow_samples(*points, count, scale, line);
   *count = keep_needed(*points, *count, STRAIGHT * scale->lambda);
   return FG_STATUS_OK;
 }

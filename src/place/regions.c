@@ -40,7 +40,7 @@ static void claim(owners *all, const fg__place_search *search, int index)
   double lambda = search->scale.lambda;
   int low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
   for (int k = 0; k < search->scale.dimension; ++k) {
-    double begin = search->domain->low[k] + box->low[k] * search->scale.cell;
+    double begin = search->scale.origin[k] + box->low[k] * search->scale.cell;
     double end = begin + box->size[k] * search->scale.cell;
     int first = (int)ceil((begin - all->low[k]) / all->spacing[k]);
     int last = (int)floor((end - all->low[k]) / all->spacing[k]);
@@ -56,9 +56,9 @@ static void claim(owners *all, const fg__place_search *search, int index)
         const int node[3] = {x, y, z};
         float place[3] = {0}, nearest = HUGE_VALF;
         for (int k = 0; k < search->scale.dimension; ++k)
-          place[k] =
-              (float)((all->low[k] + node[k] * all->spacing[k] - search->domain->low[k]) /
-                      lambda);
+          place[k] = (float)((all->low[k] + node[k] * all->spacing[k] -
+                              search->scale.origin[k]) /
+                             lambda);
         for (int n = 0; n < line->count; ++n) {
           float square = 0.0F;
           for (int k = 0; k < search->scale.dimension; ++k) {

@@ -7,13 +7,30 @@
 static const double SHORTER = 0.7;
 static const double LEAST_LENGTH = 0.2;
 
-fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free)
+/* Of a volume thinner than that, it is the length in the plane, or along the line. */
+static double fair_length(const fg__place_domain *domain, int count)
 {
-  bool flat = dimension == 2;
-  double share = measure / count, lambda = flat ? sqrt(share) : cbrt(share);
+  const double share = domain->measure / count;
+  double side[3], lambda = cbrt(share);
+  if (domain->dimension == 2)
+    return sqrt(share);
+  for (int k = 0; k < 3; ++k)
+    side[k] = domain->high[k] - domain->low[k];
+  const double thin = fmin(side[0], fmin(side[1], side[2]));
+  const double long_side = fmax(side[0], fmax(side[1], side[2]));
+  const double middle = side[0] * side[1] * side[2] / (thin * long_side);
+  if (lambda > thin)
+    lambda = sqrt(share / thin);
+  return lambda > middle ? share / (thin * middle) : lambda;
+}
+
+fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free)
+{
+  const bool flat = domain->dimension == 2;
+  const double lambda = fair_length(domain, count);
   const double ink = flat || !free ? 0.0 : 0.1;
-  return (fg__place_scale){
-      .dimension = dimension,
+  fg__place_scale scale = {
+      .dimension = domain->dimension,
       .count = count,
       .lambda = lambda,
       .cell = lambda / (flat ? 8.0 : 4.0),
@@ -37,6 +54,12 @@ fg__place_scale fg__place_scale_of(int dimension, int count, double measure, boo
       .first_ink = ink,
       .free = free,
   };
+  for (int k = 0; k < 3; ++k) {
+    const double side = domain->high[k] - domain->low[k];
+    const bool thin = k < scale.dimension && side < scale.cell;
+    scale.origin[k] = domain->low[k] - (thin ? (scale.cell - side) / 2.0 : 0.0);
+  }
+  return scale;
 }
 
 bool fg__place_shorten(fg__place_scale *scale)

@@ -7,8 +7,9 @@
 
 typedef struct fg__place_scale {
   int dimension, count;
-  double lambda;      /* (|domain| / N)^(1/dimension) */
+  double lambda;      /* (|domain| / N)^(1/dimension), without axes it is longer than */
   double cell;        /* of the raster on which readers are evaluated */
+  double origin[3];   /* of the raster: its one cell is in the middle of a thin axis */
   double sampling;    /* along a line */
   double reach;       /* R: readers take nothing from an icon farther away */
   double clearance;   /* least distance to a wall */
@@ -30,8 +31,7 @@ typedef struct fg__place_scale {
   bool free;          /* each icon has a length of its own */
 } fg__place_scale;
 
-/* `measure`: of the domain (fg__place_domain). */
-fg__place_scale fg__place_scale_of(int dimension, int count, double measure, bool free);
+fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free);
 
 /* Lowers the least length of lines; false where it is as low as it may be. */
 bool fg__place_shorten(fg__place_scale *scale);

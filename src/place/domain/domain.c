@@ -316,6 +316,9 @@ static fg_status number_subdomains(fg__place_domain *domain, fg_context *context
     }
     domain->subdomains[domain->subdomain_count++] = (fg__place_subdomain){0};
     fill_subdomain(domain, n, domain->subdomain_count, stack);
+    fg__place_subdomain *last = &domain->subdomains[domain->subdomain_count - 1];
+    for (int k = 0; k < domain->dimension; ++k) /* thinner than a cell */
+      last->widest = fmin(last->widest, 0.5 * (domain->high[k] - domain->low[k]));
   }
   free(stack);
   return status;

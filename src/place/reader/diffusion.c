@@ -54,7 +54,7 @@ static void map_domain(fg__place_diffusion *reader, const fg__place_domain *doma
     for (int y = 0; y < raster->cells[1]; ++y)
       for (int x = 0; x < raster->cells[0]; ++x, ++n) {
         double center[3];
-        fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
+        fg__place_raster_center(center, raster, scale, (const int[3]){x, y, z});
         inside[n] = fg__place_subdomain_at(domain, center) ? 1.0F : 0.0F;
       }
   count_faces(reader, inside);

@@ -7,19 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A subdomain smaller than this many lambda squared (cubed) gets no icon, and does not
+/* A subdomain smaller than this many fair shares gets no icon, and does not
  * count, unless it is the largest. */
 static const double SMALLEST_PART_2D = 0.25;
 static const double SMALLEST_PART_3D = 1.0;
 
 void fg__place_raster_center(double center[3], const fg__place_raster *raster,
-                             const fg__place_domain *domain, const fg__place_scale *scale,
-                             const int at[3])
+                             const fg__place_scale *scale, const int at[3])
 {
   for (int k = 0; k < 3; ++k)
     center[k] =
         k < raster->dimension
-            ? domain->low[k] + (at[k] + 0.5) * (double)raster->cell * scale->lambda
+            ? scale->origin[k] + (at[k] + 0.5) * (double)raster->cell * scale->lambda
             : 0.0;
 }
 
@@ -28,8 +27,8 @@ static double smallest_subdomain(const fg__place_domain *domain,
                                  const fg__place_scale *scale)
 {
   double largest = 0.0;
-  double least = pow(scale->lambda, domain->dimension) *
-                 (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
+  const double least = domain->measure / scale->count *
+                       (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
   for (int n = 0; n < domain->subdomain_count; ++n)
     largest = fmax(largest, domain->subdomains[n].measure);
   return fmin(least, largest);
@@ -44,7 +43,7 @@ static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain
     for (int y = 0; y < raster->cells[1]; ++y)
       for (int x = 0; x < raster->cells[0]; ++x, ++cell) {
         double center[3], direction[3];
-        fg__place_raster_center(center, raster, domain, scale, (const int[3]){x, y, z});
+        fg__place_raster_center(center, raster, scale, (const int[3]){x, y, z});
         double speed = fg__place_speed(domain, center);
         const fg__place_subdomain *subdomain = fg__place_subdomain_at(domain, center);
         if (!fg__place_moves(domain, speed) || !subdomain ||

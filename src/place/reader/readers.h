@@ -24,8 +24,7 @@ void fg__place_raster_clear(fg__place_raster *raster);
 
 /* Where the middle of a cell lies, input coordinates. */
 void fg__place_raster_center(double center[3], const fg__place_raster *raster,
-                             const fg__place_domain *domain, const fg__place_scale *scale,
-                             const int at[3]);
+                             const fg__place_scale *scale, const int at[3]);
 
 /* Elements that arrays of cells have more than they need, on the side where they are
  * read in whole vectors (rows.h). */

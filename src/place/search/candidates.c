@@ -99,7 +99,7 @@ static fg__place_seed seed_at(const fg__place_search *search, const float positi
   const fg__place_scale *scale = &search->scale;
   fg__place_seed seed = {{0}, {0}};
   for (int k = 0; k < 3 && k < scale->dimension; ++k)
-    seed.position[k] = search->domain->low[k] + (double)position[k] * scale->lambda;
+    seed.position[k] = scale->origin[k] + (double)position[k] * scale->lambda;
   seed.way[0] = seed.way[1] = scale->first_way;
   return seed;
 }

@@ -173,7 +173,7 @@ static fg_status add_icons(fg__place_search *search, const points *all)
     bool added;
     for (int k = 0; k < scale->dimension; ++k)
       seed.position[k] =
-          search->domain->low[k] + ((double)all->place[n][k] + 0.5) * scale->cell;
+          scale->origin[k] + ((double)all->place[n][k] + 0.5) * scale->cell;
     seed.way[0] = seed.way[1] = scale->first_way;
     status = fg__place_add(search, &added, &seed, search->next_identity);
     search->next_identity += added;

@@ -75,7 +75,8 @@ static void along(double out[3], const fg__place_search *search,
     left -= 1.0;
   }
   for (int k = 0; k < 3; ++k)
-    out[k] = search->domain->low[k] + (double)line->position[k][n] * search->scale.lambda;
+    out[k] =
+        search->scale.origin[k] + (double)line->position[k][n] * search->scale.lambda;
 }
 
 /* A seed moved along its axes. */

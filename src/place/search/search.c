@@ -8,8 +8,7 @@
 
 static fg_status set_scale(fg__place_search *search, int count, bool free)
 {
-  search->scale =
-      fg__place_scale_of(search->domain->dimension, count, search->domain->measure, free);
+  search->scale = fg__place_scale_of(search->domain, count, free);
   fg_status status = fg__place_raster_create(&search->raster, search->context,
                                              search->domain, &search->scale);
   if (status == FG_STATUS_OK)
