@@ -15,7 +15,7 @@ static double fair_length(const fg__place_domain *domain, int count)
   if (domain->dimension == 2)
     return sqrt(share);
   for (int k = 0; k < 3; ++k)
-    side[k] = domain->high[k] - domain->low[k];
+    side[k] = domain->cells[k] * domain->spacing; /* as the measure takes it */
   const double thin = fmin(side[0], fmin(side[1], side[2]));
   const double long_side = fmax(side[0], fmax(side[1], side[2]));
   const double middle = side[0] * side[1] * side[2] / (thin * long_side);
