@@ -30,7 +30,7 @@ typedef struct fg_score_options {
 } fg_score_options;
 
 /* A reader's angle to the field, degrees: of every cell of a raster where the field moves
- * at more than a thousandth of its greatest speed. */
+ * at more than a thousandth of its greatest speed, that beside singularities left out. */
 typedef struct fg_reader_error {
   double mean;           /* by area */
   double percentile_95;  /* 95 % of the area have at most so much */

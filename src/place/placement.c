@@ -4,8 +4,14 @@
 #include "icon/icons.h"
 #include "place/best.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Where the flow crosses a thin domain all lines are short, and few arrows have long
+ * ones: they become smaller while those that would fill the domain are at most so many.
+ */
+static const double FEW_IN_ALL = 10000.0;
 
 struct fg_placement {
   fg_placement_options options;
@@ -135,6 +141,7 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
 {
   fg__place_descent *now = &placement->now;
   fg__descent_clear(now);
+  placement->domain.small_arrows = 0;
   fg_status status = fg__place_best(now, count, NULL, true);
   if (status != FG_STATUS_ARGUMENT)
     return status;
@@ -143,11 +150,8 @@ fg_status fg__placement_begin_again(fg_placement *placement, int count)
   return status == FG_STATUS_OK ? fg__descent_refine(now) : status;
 }
 
-fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
+static fg_status place(fg_placement *placement, int count, const fg_icons *clusters)
 {
-  if (!placement || count < 1)
-    return fg__fail(placement ? placement->now.context : NULL, FG_STATUS_ARGUMENT,
-                    "placement: %d arrows", count);
   fg__place_descent *now = &placement->now;
   fg_status status;
   const bool is_first = !now->search || count > now->search->count;
@@ -160,5 +164,29 @@ fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons 
   }
   if (status == FG_STATUS_OK && is_first)
     number_icons(now->search);
+  return status;
+}
+
+/* So many arrows and halvings of their length leave the rasters small. */
+static bool may_be_smaller(const fg__place_domain *domain, int count)
+{
+  return count <= fg__descent_most(domain) &&
+         ldexp(count, domain->dimension * (domain->small_arrows + 1)) <= FEW_IN_ALL;
+}
+
+fg_status fg_placement_place(fg_placement *placement, int count, const fg_icons *clusters)
+{
+  if (!placement || count < 1)
+    return fg__fail(placement ? placement->now.context : NULL, FG_STATUS_ARGUMENT,
+                    "placement: %d arrows", count);
+  fg__place_domain *domain = &placement->domain;
+  domain->small_arrows = 0;
+  fg_status status = place(placement, count, clusters);
+  while (status == FG_STATUS_ARGUMENT && may_be_smaller(domain, count)) {
+    fg_context_clear(placement->now.context);
+    fg__descent_clear(&placement->now);
+    ++domain->small_arrows;
+    status = place(placement, count, NULL);
+  }
   return status;
 }

@@ -234,15 +234,39 @@ static void film(const double position[3], double v[3])
   v[2] = 0;
 }
 
+static void sheet(const double position[3], double v[3])
+{
+  v[0] = 0;
+  v[1] = 1 + 0.8 * sin(6.2832 * position[2]);
+  v[2] = 0.5 * cos(6.2832 * position[1]);
+}
+
+static void thread(const double position[3], double v[3])
+{
+  v[0] = 1;
+  v[1] = 0.002 * sin(6.2832 * position[0]);
+  v[2] = 0;
+}
+
+static void membrane(const double position[3], double v[3])
+{
+  v[0] = 0.1 * sin(6.2832 * position[1]);
+  v[1] = 0;
+  v[2] = 1;
+}
+
 static void any_number_fits_into_a_thin_volume(void **state)
 {
-  static const sampling boxes[] = {
-      {.dimension = 3, .nodes = {41, 41, 3}, .high = {1, 1, 0.01}},
-      {.dimension = 3, .nodes = {3, 51, 51}, .high = {0.0005, 1, 1}},
-      {.dimension = 3, .nodes = {31, 3, 3}, .high = {1, 0.02, 0.01}}};
+  static const struct {
+    sampling box;
+    velocity_of velocity;
+  } cases[] = {{{.dimension = 3, .nodes = {41, 41, 3}, .high = {1, 1, 0.01}}, film},
+               {{.dimension = 3, .nodes = {3, 51, 51}, .high = {0.0005, 1, 1}}, sheet},
+               {{.dimension = 3, .nodes = {31, 3, 3}, .high = {1, 0.02, 0.01}}, thread},
+               {{.dimension = 3, .nodes = {21, 21, 5}, .high = {1, 1, 0.05}}, membrane}};
   static const int counts[] = {1, 2, 12, 25, 39, 40, 41, 60, 140};
-  for (size_t b = 0; b < sizeof boxes / sizeof *boxes; ++b) {
-    fg_field *field = field_of(*state, &boxes[b], b == 1 ? mass : film);
+  for (size_t b = 0; b < sizeof cases / sizeof *cases; ++b) {
+    fg_field *field = field_of(*state, &cases[b].box, cases[b].velocity);
     for (size_t n = 0; n < sizeof counts / sizeof *counts; ++n) {
       fg_placement *placement = placement_of(*state, field, FG_EFFORT_QUICK);
       fg_icons *icons = place(*state, placement, counts[n]);

@@ -27,7 +27,7 @@ static double fair_length(const fg__place_domain *domain, int count)
 fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free)
 {
   const bool flat = domain->dimension == 2;
-  const double lambda = fair_length(domain, count);
+  const double lambda = ldexp(fair_length(domain, count), -domain->small_arrows);
   const double ink = flat || !free ? 0.0 : 0.1;
   fg__place_scale scale = {
       .dimension = domain->dimension,

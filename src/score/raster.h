@@ -18,7 +18,7 @@ typedef struct fg__score_raster {
   double spacing; /* the wanted side of cells */
   size_t cells;
   unsigned char *inside, *counts; /* a byte a cell: in the domain; and it moves there at
-                                     more than a thousandth of the greatest speed */
+                                     more than a thousandth of the top speed */
   float *direction[3], *speed;    /* unit tangents (0 where it stands still) and |v| */
 } fg__score_raster;
 

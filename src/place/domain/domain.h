@@ -26,15 +26,16 @@ typedef struct fg__place_domain {
   int *subdomain;   /* a cell: which subdomain from 1 on, 0 outside */
   fg__place_subdomain *subdomains;
   int subdomain_count;
-  double whole; /* area or volume of the domain */
+  double whole;     /* area or volume of the domain */
+  int small_arrows; /* fair lengths are halved so often, where no longer lines fit */
   /* of what counts: less than the whole where half of it is dead or still */
   double measure;
   double top;              /* speed (field/still.h) */
   double fast;             /* speed exceeded by a twentieth */
   double root_mean_square; /* of speeds up to the top */
-  bool rests; /* some of the domain is still */
-  bool slow;  /* most of the domain hardly moves, beside that */
-  bool dead;  /* and is a volume: speed weighs */
+  bool rests;              /* some of the domain is still */
+  bool slow;               /* most of the domain hardly moves, beside that */
+  bool dead;               /* and is a volume: speed weighs */
 } fg__place_domain;
 
 /* Maps the domain of a field; gaps (gaps.h) are no walls. The field must outlive it.
