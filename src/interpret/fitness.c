@@ -260,9 +260,9 @@ static const fg__variable *find_place(const fg__dataset *data, const fg__pair *p
 {
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
-    const bool is_place =
-        (int)v->geographic == role ||
-        fg__column_fits(v->plain_name, (fg__column_use)(FG__COLUMN_X + role)) == 2;
+    int fits;
+    const bool is_place = (int)v->geographic == role ||
+                          (int)fg__place_of_name(&fits, v->plain_name) == role;
     if (is_place && v->rank > 0 && fg__is_number(v) && v != pair->component[0] &&
         v != pair->component[1])
       return v;

@@ -34,7 +34,64 @@
   "y[" side "]; x[" side "]; float u(y,x) :_Chunks=#1000 1000; float v(y,x) "            \
   ":_Chunks=#1000 1000"
 
+/* Coordinates along dimensions of other names, and of theirs in the other order, without
+ * units: what they are called alone says which is x. */
+#define CALLED(x, y, scale)                                                              \
+  {.what = x " along a dimension of another name",                                       \
+   .file = "r[3]; c[4]; " y "(r) = 10 20 30; " x "(c) = 2 4 6 8; float u(r,c) ~ 1 c 1; " \
+           "float v(r,c) ~ 0 r 1",                                                       \
+   .field = scale " 4 x 3|x = 2 4 6 8\n|y = 10 20 30\n|at 6 20 = 3 1|doubts ''"},        \
+  {                                                                                      \
+    .what = x " before " y,                                                              \
+    .file = x "[4] = 2 4 6 8; " y "[3] = 10 20 30; float u(" x "," y ") ~ 1 " x          \
+              " 1; float v(" x "," y ") ~ 0 " y " 1",                                    \
+    .field = scale " 4 x 3|x = 2 4 6 8\n|y = 10 20 30\n|at 6 20 = 3 1|doubts ''"         \
+  }
+/* In two dimensions, curved: of a plane samples are counted, with a word. */
+#define BOTH_WAYS(x, y, field_)                                                          \
+  {                                                                                      \
+    .what = x " in two dimensions",                                                      \
+    .file = "r[3]; c[4]; " y "(r,c) ~ 10 r 2 c .3; " x "(r,c) ~ 2 c 2 r .5; float "      \
+            "u(r,c) = 1; float v(r,c) = 1",                                              \
+    .options = {.frame = FG_FRAME_EAST}, .field = field_                                 \
+  }
+#define COUNTED(x, y)                                                                    \
+  BOTH_WAYS(x, y,                                                                        \
+            "plain 4 x 3|doubts 'axes count the samples of 'u': '" x "' and '" y         \
+            "' do not lie there'")
+
 static const situation SITUATIONS[] = {
+    CALLED("x_f", "y_f", "plain"),
+    CALLED("x_rho", "y_rho", "plain"),
+    CALLED("xu", "yu", "plain"),
+    CALLED("xq", "yq", "plain"),
+    CALLED("XG", "YG", "plain"),
+    CALLED("X1", "Y1", "plain"),
+    CALLED("grid_xt", "grid_yt", "plain"),
+    CALLED("xCell", "yCell", "plain"),
+    CALLED("easting_c", "northing_c", "plain"),
+    CALLED("lon_0", "lat_0", "geo"),
+    CALLED("nav_lon_u", "nav_lat_u", "geo"),
+    CALLED("longitude_t", "latitude_t", "geo"),
+    CALLED("TLONG", "TLAT", "geo"),
+    CALLED("XLONG_U", "XLAT_U", "geo"),
+    CALLED("geolon_c", "geolat_c", "geo"),
+    CALLED("glamt", "gphit", "geo"),
+    CALLED("ulon", "ulat", "geo"),
+    BOTH_WAYS("glamu", "gphiu", "geo "),
+    BOTH_WAYS("nav_lon_grid", "nav_lat_grid", "geo "),
+    COUNTED("x_rho", "y_rho"),
+    COUNTED("xc", "yc"),
+    COUNTED("x_face", "y_face"),
+    {.what = "places of cells and faces along one dimension: neither is taken",
+     .file = "r[3]; c[4]; y_c(r) = 1 2 3; y_f(r) = 1.5 2.5 3.5; x_c(c) = 2 4 6 8; x_f(c) "
+             "= 3 5 7 9; float u(r,c) = 1; float v(r,c) = 1",
+     .field = "plain 4 x 3|x = 0 1 2 3\n|doubts 'axes count the samples of 'u'"},
+    {.what = "positions along one dimension are those of points, not its axis",
+     .file =
+         "n[4]; r[3]; lon_0(n) = 1 2 3 1; lat_0(n) = 4 3 1 1; float u(r,n) = 1; float "
+         "v(r,n) = 1",
+     .field = "geo "},
     {.what = "a closed circle is periodic",
      .file = OF_LONGITUDES("[36]" EAST "5:355:10"),
      .field = "geo 36 x 3|period 0 360|at -355 0 = 1 1|at 357.5 0 = 27.25 27.25"},
