@@ -173,9 +173,15 @@ void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__var
  * opposite, or that are counted to the west or south. MEMORY. */
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
 
-/* Doubts a grid whose axes count samples though the file has places. */
+/* Doubts a grid whose axes count samples, where the file has places, or names or faces
+ * that tell of some. */
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                             const fg_read_options *options);
+
+/* curvilinear/positions.c. On which side of the centres faces lie along a variable's
+ * dimension, -1 or 1, by the attributes of its coordinate (ROMS, CROCO) or its name; 0:
+ * nothing says. */
+int fg__side_of_faces(const fg__dataset *data, const fg__variable *v, int position);
 
 /* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
  * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
@@ -220,6 +226,9 @@ void fg__call_geographic(fg__grid_axis *axis, int k);
 /* axes.c. Makes a pair unusable whose longitudes and latitudes are radians, or no
  * latitudes, by their numbers. */
 void fg__check_axes_in_degrees(fg__grid *grid);
+
+/* Whether an axis counts from 0 or 1, as sample numbers do. */
+bool fg__counts_samples(const fg__grid_axis *axis);
 
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);

@@ -60,7 +60,52 @@
             "plain 4 x 3|doubts 'axes count the samples of 'u': '" x "' and '" y         \
             "' do not lie there'")
 
+#define FLOW(u, v) "float u(" u ") = 1; float v(" v ") = 1;"
+#define INDICES "y[3] = 0 1 2; x[4] = 0 1 2 3;"
+#define ON_FACES "doubts 'axes count cells: 'u' and 'v' lie on faces without positions"
+
 static const situation SITUATIONS[] = {
+    {.what = "faces without positions",
+     .file = "j[4]; i[4]; j_g[4]; i_g[4];" FLOW("j,i_g", "j_g,i"),
+     .field = "plain 3 x 3|" ON_FACES},
+    {.what = "the same, whose faces and centres are counted",
+     .file = "j[4] = 0 1 2 3; i[4] = 0 1 2 3; j_g[4] = 0 1 2 3; i_g[4] = 0 1 2 3;" FLOW(
+         "j,i_g", "j_g,i"),
+     .field = "plain 3 x 3|" ON_FACES},
+    {.what = "faces on both sides of cells (WRF)",
+     .file = "south_north[3]; west_east[4]; south_north_stag[4]; west_east_stag[5];" FLOW(
+         "south_north,west_east_stag", "south_north_stag,west_east"),
+     .field = "plain 4 x 3|" ON_FACES,
+     .inventory = ON_FACES},
+    {.what = "faces at places of a plane",
+     .file =
+         "j[4] :units=m = 5 15 25 35; i[4] :units=m = 5 15 25 35; j_g[4] :units=m = 0 "
+         "10 20 30; i_g[4] :units=m = 0 10 20 30;" FLOW("j,i_g", "j_g,i"),
+     .field = "map 3 x 3|x = 5 15 25\n|doubts ''"},
+    {.what = "sample numbers beside positions of other points",
+     .file = INDICES "r[4]; c[5]; lon(r,c) ~ 9 c 1; lat(r,c) ~ 9 r 1;" FLOW("y,x", "y,x"),
+     .field =
+         "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' and 'lat' do not lie "
+         "there'",
+     .inventory = "doubts 'axes count the samples of 'u'"},
+    {.what = "longitudes without latitudes",
+     .file = INDICES "lon(y,x) ~ 9 x 1;" FLOW("y,x", "y,x"),
+     .field =
+         "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' does not lie there'"},
+    {.what = "the same along an axis",
+     .file = "lat[3]; lon[4] = 10 20 30 40;" FLOW("lat,lon", "lat,lon"),
+     .field = "doubts ''lat' counts samples, beside 'longitude' in degrees'"},
+    {.what = "longitude and latitude without numbers",
+     .file = "lat[3]; lon[4];" FLOW("lat,lon", "lat,lon"),
+     .field =
+         "plain 4 x 3|doubts ''lon' and 'lat' count samples: they have no coordinates'"},
+    {.what = "x and y of a unit of their own",
+     .file = "y[3] = 0 .1 .2; x[4] = 0 .1 .2 .3; r[4]; lon(r) = 1; lat(r) = 1;" FLOW(
+         "y,x", "y,x"),
+     .field = "plain 4 x 3|x = 0 0.1 0.2 0.3\n|doubts ''"},
+    {.what = "sample numbers, where the file has no places",
+     .file = INDICES FLOW("y,x", "y,x"),
+     .field = "plain 4 x 3|doubts ''"},
     CALLED("x_f", "y_f", "plain"),
     CALLED("x_rho", "y_rho", "plain"),
     CALLED("xu", "yu", "plain"),
