@@ -367,6 +367,9 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
                      x->units);
   if (grid->scale == FG_SCALE_GEO && is_usable(grid))
     fg__check_axes_in_degrees(grid);
+  if (grid->scale == FG_SCALE_GEO && wanted == FG_SCALE_AUTO && is_usable(grid) &&
+      status == FG_STATUS_OK)
+    status = fg__check_extents(grid, data, pair);
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
                      x->name, x->units, y->name, y->units);
@@ -449,8 +452,11 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
   if (status == FG_STATUS_OK && grid->off_axes && !grid->mesh &&
       options->scale != FG_SCALE_GEO)
     status = find_on_faces(grid, data, pair, options);
-  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
+  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid)) {
     check_units(grid, pair, &velocity);
+    if (options->scale == FG_SCALE_AUTO)
+      status = fg__check_mesh_extents(grid, data);
+  }
   fg__tell_unused_places(grid, data, pair, options);
   return status;
 }

@@ -220,6 +220,13 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
                                              const fg__grid *grid, const fg__variable *v,
                                              int k);
 
+/* extent.c. Refuses longitudes and latitudes, of axes or a curvilinear grid, most of
+ * which lie outside the extent that the file states or the bounds of their cells, and
+ * doubts those of which some do. MEMORY, FILE_FORMAT. */
+fg_status fg__check_extents(fg__grid *grid, const fg__dataset *data,
+                            const fg__pair *pair);
+fg_status fg__check_mesh_extents(fg__grid *grid, const fg__dataset *data);
+
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);
