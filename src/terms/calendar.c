@@ -13,7 +13,7 @@ bool fg__calendar_find(fg__calendar *out, const char *name)
 {
   static const char *const names[] = {
       [FG__CALENDAR_STANDARD] = "|standard|gregorian",
-      [FG__CALENDAR_GREGORIAN] = "proleptic_gregorian",
+      [FG__CALENDAR_GREGORIAN] = "proleptic_gregorian|gregorian_proleptic", /* ROMS */
       [FG__CALENDAR_JULIAN] = "julian",
       [FG__CALENDAR_NOLEAP] = "noleap|no_leap|365_day|365",
       [FG__CALENDAR_ALL_LEAP] = "all_leap|366_day|366",
