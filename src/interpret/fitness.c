@@ -262,7 +262,9 @@ static const fg__variable *find_place(const fg__dataset *data, const fg__grid *g
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     int fits;
+    const fg__term term = fg__term_of(v);
     const bool is_place = (int)v->geographic == role ||
+                          (int)fg__role_of_attributes(&term, "", false) == role ||
                           (int)fg__place_of_name(&fits, v->plain_name) == role;
     const bool along = v == fg__grid_axis_coordinate(data, grid, pair->component[0], 0) ||
                        v == fg__grid_axis_coordinate(data, grid, pair->component[0], 1);

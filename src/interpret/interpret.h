@@ -277,6 +277,10 @@ bool fg__named_alike(const char *of_u, const char *of_v);
 const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset *data,
                                          const fg__variable *variable, fg__role role);
 
+/* Other longitudes beside those, between which nothing decides; NULL: none. */
+const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *data,
+                                    const fg__variable *variable);
+
 /* Whether the variable's attribute `coordinates` names both of them. */
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
                      const fg__variable *variable);

@@ -14,8 +14,8 @@ static const float SMALLEST_CODE = 99.0F;
  * have them together (-9). */
 static const float SMALLEST_TOGETHER = 9.0F;
 
-/* Packed lengths may be as much below 0, as a share of the greatest. */
-static const double NEGATIVE_LENGTH = 0.01;
+/* 270 beside 5 are directions. */
+static const float LARGEST_DIRECTION = 360.0F;
 
 /* A customary code lies apart from other values by this share of their range; any other
  * number is this many times as large as they are. */
@@ -150,25 +150,18 @@ static bool may_be_code(const fg__extreme *e)
            is_customary(e->value)));
 }
 
-static bool is_negative_length(const fg__extremes *extremes, const fg__raw_samples *s)
+bool fg__extremes_are_suspect(const fg__extremes *extremes, int components)
 {
-  return s->is_polar && (double)extremes->low[0].value <
-                            -NEGATIVE_LENGTH * fabs((double)extremes->high[0].value);
-}
-
-bool fg__extremes_are_suspect(const fg__extremes *extremes,
-                              const fg__raw_samples *samples)
-{
-  bool suspect = extremes->count > 0 && is_negative_length(extremes, samples);
-  for (int k = 0; k < samples->components && extremes->count > 0; ++k)
+  bool suspect = false;
+  for (int k = 0; k < components && extremes->count > 0; ++k)
     suspect =
         suspect || may_be_code(&extremes->low[k]) || may_be_code(&extremes->high[k]);
   return suspect;
 }
 
-/* Whether an extreme stands for missing data; `other` is the opposite end of all others.
- */
-static bool is_code(const fg__extreme *e, float other)
+/* Whether an extreme stands for missing data; `other` is the opposite end of all others,
+ * `largest_value` the size up to which only customary codes are. */
+static bool is_code(const fg__extreme *e, float other, float largest_value)
 {
   if (!may_be_code(e) || !isfinite(e->next))
     return false;
@@ -177,7 +170,8 @@ static bool is_code(const fg__extreme *e, float other)
   const double largest = fmax(fabs((double)e->next), fabs((double)other));
   return is_customary(e->value) || is_of_two_bytes(e->value)
              ? gap >= CUSTOMARY_GAP * range && fabs((double)e->value) > largest
-             : largest > 0.0 && fabs((double)e->value) >= LEAST_RATIO * largest;
+             : largest > 0.0 && fabsf(e->value) > largest_value &&
+                   fabs((double)e->value) >= LEAST_RATIO * largest;
 }
 
 static fg_status refuse(fg_context *context, const fg__raw_samples *s, int k,
@@ -209,14 +203,12 @@ fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
 {
   for (int k = 0; k < samples->components && extremes->count > 0 && !given->none; ++k) {
     const fg__extreme *low = &extremes->low[k], *high = &extremes->high[k];
-    if (is_code(high, low->value))
+    const float most = samples->is_polar && k == 1 ? LARGEST_DIRECTION : 0.0F;
+    if (is_code(high, low->value, most))
       return refuse(context, samples, k, high, extremes->count, low->value);
-    if (is_code(low, high->value))
+    if (is_code(low, high->value, most))
       return refuse(context, samples, k, low, extremes->count, high->value);
   }
-  if (extremes->count > 0 && !given->none && is_negative_length(extremes, samples))
-    return refuse(context, samples, 0, &extremes->low[0], extremes->count,
-                  extremes->high[0].value);
   return FG_STATUS_OK;
 }
 

@@ -18,7 +18,7 @@ typedef struct situation {
   double low, high, code;
   int count;
   const char *missing;
-  bool refused, together, is_polar; /* v is the code, too; u is a length */
+  bool refused, together; /* v is the code, too */
 } situation;
 
 static const situation SITUATIONS[] = {
@@ -33,7 +33,7 @@ static const situation SITUATIONS[] = {
     {-20, 30, -32768, LARGE_BLOCK, .refused = true},
     {-5, 5, 12345, LARGE_BLOCK, .refused = true},
     {1e20, 3e20, 9e36, LARGE_BLOCK, .refused = true},
-    /* below 99: of two bytes and a scale, of all components, of a length */
+    /* below 99: of two bytes and a scale, of all components */
     {-5, 8, 32.767, LARGE_BLOCK, .refused = true},
     {-1, 1, -3.2768, LARGE_BLOCK, .refused = true},
     {-0.1, 0.1, -0.32768, 2, .refused = true},
@@ -42,10 +42,6 @@ static const situation SITUATIONS[] = {
     {-1, 2, 9.999, LARGE_BLOCK, .refused = true, .together = true},
     {0, 3, -99.0 / 4.0, LARGE_BLOCK, .refused = false, .together = true},
     {-1, 2, -9, LARGE_BLOCK, .missing = "-9", .together = true},
-    {0, 12, -1, LARGE_BLOCK, .refused = true, .is_polar = true},
-    {0, 12, -1, 1, .refused = true, .is_polar = true},
-    {0, 12, -1, LARGE_BLOCK, .missing = "-1", .is_polar = true},
-    {0, 12, -0.01, LARGE_BLOCK, .refused = false, .is_polar = true},
     /* decided by the option */
     {-20, 30, -9999, LARGE_BLOCK, .missing = "-9999"},
     {-20, 30, -9999, LARGE_BLOCK, .missing = "1e20,-9999"},
@@ -85,21 +81,42 @@ static void a_recurring_number_apart_is_refused(void **state)
                                    .name = {k ? "v" : "u", k ? "u" : "v"},
                                    .component = {k ? v : u, k ? u : v},
                                    .components = 2,
-                                   .count = SAMPLES,
-                                   .is_polar = s->is_polar && k == 0};
+                                   .count = SAMPLES};
       assert_int_equal(fg__missing_read(&given, *state, s->missing), FG_STATUS_OK);
       const fg_status status = fg__missing_settle(*state, &raw, &given);
-      if ((status != FG_STATUS_OK) != (s->refused && (k == 0 || !s->is_polar)))
+      if ((status != FG_STATUS_OK) != s->refused)
         fail_msg("situation %zu: %s", n, fg_context_message(*state));
-      if (s->refused && status != FG_STATUS_OK) {
+      if (s->refused) {
         assert_non_null(
             strstr(fg_context_message(*state), s->together ? "' is " : "'u' is "));
         assert_non_null(strstr(fg_context_hint(*state), "--missing="));
-      } else if (!s->refused) {
+      } else {
         assert_true(isnan(u[100]) == (given.count > 0));
       }
       fg_context_clear(*state);
     }
+}
+
+static void directions_may_be_far_from_others(void **state)
+{
+  static const struct {
+    float direction;
+    bool refused;
+  } cases[] = {{270, false}, {360, false}, {361, true}, {999, true}, {-99, true}};
+  const fg__missing_numbers given = {.count = 0};
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const float far = cases[n].direction;
+    float speed[] = {1, 2, 3, 4, 5, 6}, direction[] = {5, 10, far, far, 3, 2};
+    const fg__raw_samples raw = {.path = "file",
+                                 .name = {"speed", "direction"},
+                                 .component = {speed, direction},
+                                 .components = 2,
+                                 .count = sizeof speed / sizeof *speed,
+                                 .is_polar = true};
+    assert_true((fg__missing_settle(*state, &raw, &given) != FG_STATUS_OK) ==
+                cases[n].refused);
+    fg_context_clear(*state);
+  }
 }
 
 static void samples_that_are_masked_do_not_count(void **state)
@@ -145,6 +162,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_recurring_number_apart_is_refused),
+      cmocka_unit_test(directions_may_be_far_from_others),
       cmocka_unit_test(samples_that_are_masked_do_not_count),
       cmocka_unit_test(a_list_of_numbers_is_read_whole),
   };

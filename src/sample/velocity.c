@@ -252,7 +252,7 @@ static fg_status settle_missing(const fg__velocity_samples *out, const source *f
     return FG_STATUS_OK;
   if ((from->grid->whole ||
        (size_t)from->rows->own < from->grid->axis[from->grid->dimension - 1].size) &&
-      fg__extremes_are_suspect(extremes, &raw))
+      fg__extremes_are_suspect(extremes, raw.components))
     status = look_at_all(extremes, from);
   return status == FG_STATUS_OK
              ? fg__missing_decide(data->context, extremes, &raw, &data->missing)

@@ -88,6 +88,26 @@ static const situation SITUATIONS[] = {
          "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' and 'lat' do not lie "
          "there'",
      .inventory = "doubts 'axes count the samples of 'u'"},
+    {.what = "positions by their standard names in a plane (Delft3D)",
+     .file =
+         "m[3]; n[4]; XZ(m,n) :units=m :standard_name=projection_x_coordinate ~ 9 m 5 "
+         "n 1; YZ(m,n) :units=m :standard_name=projection_y_coordinate ~ 9 n 5 m 1;" FLOW(
+             "m,n", "m,n"),
+     .field =
+         "plain |doubts 'axes count the samples of 'u': 'XZ' and 'YZ' do not lie there"},
+    {.what = "positions of two points of cells, of which nothing says which are meant",
+     .file =
+         "j[4]; i[5]; TLONG(j,i) ~ 9 i 1 j .2; TLAT(j,i) ~ 9 j 1; ULONG(j,i) ~ 9.5 i 1 "
+         "j .2; ULAT(j,i) ~ 9.5 j 1;" FLOW("j,i", "j,i"),
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo |doubts ''u' is taken to lie at 'TLONG', not at 'ULONG''"},
+    {.what = "the same, where the attribute says",
+     .file =
+         "j[4]; i[5]; TLONG(j,i) ~ 9 i 1 j .2; TLAT(j,i) ~ 9 j 1; ULONG(j,i) ~ 9.5 i 1 "
+         "j .2; ULAT(j,i) ~ 9.5 j 1; float u(j,i) :coordinates=ULONG ULAT = 1; float "
+         "v(j,i) :coordinates=ULONG ULAT = 1",
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo |doubts ''"},
     {.what = "longitudes without latitudes",
      .file = INDICES "lon(y,x) ~ 9 x 1;" FLOW("y,x", "y,x"),
      .field =

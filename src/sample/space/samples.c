@@ -291,7 +291,7 @@ static fg_status settle_missing(float *samples[3], const request *r, size_t coun
   fg__missing_mask(&raw, &given);
   fg__extremes_add(&extremes, &raw);
   if (given.none || (r->is_settled && *r->is_settled) ||
-      !fg__extremes_are_suspect(&extremes, &raw))
+      !fg__extremes_are_suspect(&extremes, raw.components))
     return FG_STATUS_OK;
   if (r->is_settled)
     *r->is_settled = true;
