@@ -213,6 +213,16 @@ fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k)
   return FG_STATUS_OK;
 }
 
+bool fg__counts_samples(const fg__grid_axis *axis)
+{
+  if (axis->period > 0.0 || (axis->coordinate[0] != 0.0 && axis->coordinate[0] != 1.0))
+    return false;
+  for (size_t i = 1; i < axis->size; ++i)
+    if (axis->coordinate[i] != axis->coordinate[0] + (double)i)
+      return false;
+  return true;
+}
+
 void fg__call_geographic(fg__grid_axis *axis, int k)
 {
   if (axis->quantity != FG__QUANTITY_UNKNOWN || axis->units[0])

@@ -100,13 +100,14 @@ static bool has_plane_along(const fg__dataset *data, int dimension)
 }
 
 /* Coordinates that only count samples (i and i_g of MITgcm) say nothing of places where
- * the file has positions. */
+ * the file has positions, or one is of faces. */
 static bool only_count(const fg__dataset *data, const fg__variable *of_a,
                        const fg__variable *of_b)
 {
   return fg__may_be_index(of_a) && fg__may_be_index(of_b) &&
          (has_plane_along(data, of_a->dimension[0]) ||
-          has_plane_along(data, of_b->dimension[0]));
+          has_plane_along(data, of_b->dimension[0]) ||
+          fg__side_of_faces(data, of_a, 0) != fg__side_of_faces(data, of_b, 0));
 }
 
 static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
@@ -253,21 +254,41 @@ fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pai
   return FG_STATUS_OK;
 }
 
-/* The first variable of a place's name that is none of the vector's; NULL: there is none.
- */
-static const fg__variable *find_place(const fg__dataset *data, const fg__pair *pair,
-                                      int role)
+/* The first variable of a place's name that is none of the vector's, nor a coordinate of
+ * its axes; NULL: there is none. */
+static const fg__variable *find_place(const fg__dataset *data, const fg__grid *grid,
+                                      const fg__pair *pair, int role)
 {
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
-    const bool is_place =
-        (int)v->geographic == role ||
-        fg__column_fits(v->plain_name, (fg__column_use)(FG__COLUMN_X + role)) == 2;
-    if (is_place && v->rank > 0 && fg__is_number(v) && v != pair->component[0] &&
-        v != pair->component[1])
+    int fits;
+    const fg__term term = fg__term_of(v);
+    const bool is_place = (int)v->geographic == role ||
+                          (int)fg__role_of_attributes(&term, "", false) == role ||
+                          (int)fg__place_of_name(&fits, v->plain_name) == role;
+    const bool along = v == fg__grid_axis_coordinate(data, grid, pair->component[0], 0) ||
+                       v == fg__grid_axis_coordinate(data, grid, pair->component[0], 1);
+    if (is_place && !along && v->rank > 0 && fg__is_number(v) &&
+        v != pair->component[0] && v != pair->component[1])
       return v;
   }
   return NULL;
+}
+
+/* Whether the file says no more of an axis than how many samples it has. */
+static bool is_counted(const fg__grid *grid, const fg__dataset *data,
+                       const fg__pair *pair, int k)
+{
+  const fg__variable *of = pair->component[grid->faces.used && k == 0 ? 1 : 0],
+                     *along = fg__grid_axis_coordinate(data, grid, of, k);
+  return (!along || fg__may_be_index(along)) && grid->axis[k].coordinate &&
+         fg__counts_samples(&grid->axis[k]);
+}
+
+static bool is_called_geographic(const fg__grid_axis *axis, int k)
+{
+  const fg__term term = {.name = axis->name};
+  return (int)fg__geographic_role(&term) == k;
 }
 
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
@@ -276,21 +297,32 @@ void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__p
   if (grid->scale != FG_SCALE_PLAIN || options->scale != FG_SCALE_AUTO ||
       grid->unusable[0] || grid->mesh)
     return;
-  for (int k = 0; k < 2; ++k) {
-    const fg__variable *along =
-        fg__grid_axis_coordinate(data, grid, pair->component[0], k);
-    if (along && !fg__may_be_index(along))
-      return;
-  }
-  const fg__variable *x = find_place(data, pair, FG__ROLE_X),
-                     *y = find_place(data, pair, FG__ROLE_Y);
-  for (int k = 0; k < 2 && x && y; ++k)
-    if (fg__grid_axis_coordinate(data, grid, pair->component[0], k) == (k == 0 ? x : y))
-      return;
+  const bool counted[2] = {is_counted(grid, data, pair, 0),
+                           is_counted(grid, data, pair, 1)};
+  const fg__grid_axis *axis = grid->axis, *other = &axis[counted[0]];
+  if (counted[0] != counted[1] && (other->quantity == FG__QUANTITY_DEGREES_EAST ||
+                                   other->quantity == FG__QUANTITY_DEGREES_NORTH))
+    fg__doubt(grid->doubts, "'%.60s' counts samples, beside '%.60s' in degrees",
+              axis[!counted[0]].name, other->name);
+  if (!counted[0] || !counted[1])
+    return;
+  const fg__variable *x = find_place(data, grid, pair, FG__ROLE_X),
+                     *y = find_place(data, grid, pair, FG__ROLE_Y);
   if (x && y)
     fg__doubt(grid->doubts,
               "axes count the samples of '%.60s': '%.60s' and '%.60s' do not lie there",
               pair->component[0]->plain_name, x->plain_name, y->plain_name);
+  else if ((x && x->geographic != FG__NO_ROLE) || (y && y->geographic != FG__NO_ROLE))
+    fg__doubt(grid->doubts,
+              "axes count the samples of '%.60s': '%.60s' does not lie there",
+              pair->component[0]->plain_name, (x ? x : y)->plain_name);
+  else if (grid->faces.used)
+    fg__doubt(grid->doubts,
+              "axes count cells: '%.60s' and '%.60s' lie on faces without positions",
+              pair->component[0]->plain_name, pair->component[1]->plain_name);
+  else if (is_called_geographic(&axis[0], 0) || is_called_geographic(&axis[1], 1))
+    fg__doubt(grid->doubts, "'%.60s' and '%.60s' count samples: they have no coordinates",
+              axis[0].name, axis[1].name);
 }
 
 /* Whether the file has both components at a time and level. */

@@ -169,25 +169,14 @@ static bool is_called_geographic(const fg__variable *v)
          fg__starts_with(v->plain_name, "lon") || fg__starts_with(v->plain_name, "lat");
 }
 
-/* Whether an axis counts from 0 or 1, as sample numbers do. */
-static bool counts_samples(const fg__grid_axis *axis)
-{
-  if (axis->period > 0.0 || (axis->coordinate[0] != 0.0 && axis->coordinate[0] != 1.0))
-    return false;
-  for (size_t i = 1; i < axis->size; ++i)
-    if (axis->coordinate[i] != axis->coordinate[0] + (double)i)
-      return false;
-  return true;
-}
-
 /* Degrees that count samples on both axes (grid_xt and grid_yt of FV3) are no places,
  * unless the coordinates are called longitude and latitude. */
 static void check_counting(fg__grid *grid, const fg__variable *const coordinate[2])
 {
   const fg__grid_axis *x = &grid->axis[0], *y = &grid->axis[1];
   if (!coordinate[0] || !coordinate[1] || x->quantity != FG__QUANTITY_DEGREES_EAST ||
-      y->quantity != FG__QUANTITY_DEGREES_NORTH || !counts_samples(x) ||
-      !counts_samples(y) || x->coordinate[0] != y->coordinate[0])
+      y->quantity != FG__QUANTITY_DEGREES_NORTH || !fg__counts_samples(x) ||
+      !fg__counts_samples(y) || x->coordinate[0] != y->coordinate[0])
     return;
   if (is_called_geographic(coordinate[0]) && is_called_geographic(coordinate[1])) {
     fg__doubt(grid->doubts,
@@ -378,6 +367,9 @@ static fg_status settle_scale(fg__grid *grid, const fg__dataset *data,
                      x->units);
   if (grid->scale == FG_SCALE_GEO && is_usable(grid))
     fg__check_axes_in_degrees(grid);
+  if (grid->scale == FG_SCALE_GEO && wanted == FG_SCALE_AUTO && is_usable(grid) &&
+      status == FG_STATUS_OK)
+    status = fg__check_extents(grid, data, pair);
   if (grid->scale == FG_SCALE_MAP && strcmp(x->units, y->units) != 0)
     fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
                      x->name, x->units, y->name, y->units);
@@ -460,8 +452,11 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
   if (status == FG_STATUS_OK && grid->off_axes && !grid->mesh &&
       options->scale != FG_SCALE_GEO)
     status = find_on_faces(grid, data, pair, options);
-  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid))
+  if (status == FG_STATUS_OK && grid->mesh && is_usable(grid)) {
     check_units(grid, pair, &velocity);
+    if (options->scale == FG_SCALE_AUTO)
+      status = fg__check_mesh_extents(grid, data);
+  }
   fg__tell_unused_places(grid, data, pair, options);
   return status;
 }

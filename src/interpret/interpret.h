@@ -173,9 +173,15 @@ void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__var
  * opposite, or that are counted to the west or south. MEMORY. */
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
 
-/* Doubts a grid whose axes count samples though the file has places. */
+/* Doubts a grid whose axes count samples, where the file has places, or names or faces
+ * that tell of some. */
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                             const fg_read_options *options);
+
+/* curvilinear/positions.c. On which side of the centres faces lie along a variable's
+ * dimension, -1 or 1, by the attributes of its coordinate (ROMS, CROCO) or its name; 0:
+ * nothing says. */
+int fg__side_of_faces(const fg__dataset *data, const fg__variable *v, int position);
 
 /* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
  * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
@@ -214,12 +220,22 @@ const fg__variable *fg__grid_axis_coordinate(const fg__dataset *data,
                                              const fg__grid *grid, const fg__variable *v,
                                              int k);
 
+/* extent.c. Refuses longitudes and latitudes, of axes or a curvilinear grid, most of
+ * which lie outside the extent that the file states or the bounds of their cells, and
+ * doubts those of which some do. MEMORY, FILE_FORMAT. */
+fg_status fg__check_extents(fg__grid *grid, const fg__dataset *data,
+                            const fg__pair *pair);
+fg_status fg__check_mesh_extents(fg__grid *grid, const fg__dataset *data);
+
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);
 /* axes.c. Makes a pair unusable whose longitudes and latitudes are radians, or no
  * latitudes, by their numbers. */
 void fg__check_axes_in_degrees(fg__grid *grid);
+
+/* Whether an axis counts from 0 or 1, as sample numbers do. */
+bool fg__counts_samples(const fg__grid_axis *axis);
 
 /* axes.c. Uses the indices, from 0, as the coordinate. */
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k);
@@ -260,6 +276,10 @@ bool fg__named_alike(const char *of_u, const char *of_v);
  * that the attribute `coordinates` names. NULL: there is none. */
 const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset *data,
                                          const fg__variable *variable, fg__role role);
+
+/* Other longitudes beside those, between which nothing decides; NULL: none. */
+const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *data,
+                                    const fg__variable *variable);
 
 /* Whether the variable's attribute `coordinates` names both of them. */
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,

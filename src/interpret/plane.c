@@ -83,6 +83,23 @@ const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset
   return found;
 }
 
+const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *data,
+                                    const fg__variable *variable)
+{
+  const fg__variable *taken = fg__plane_coordinate(grid, data, variable, FG__ROLE_X);
+  char listed[FG__TEXT_BYTES];
+  fg__attribute_text(variable, "coordinates", listed, sizeof listed);
+  for (size_t i = 0; taken && i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (v != taken && v->file == taken->file && v->rank == taken->rank &&
+        v->geographic == FG__ROLE_X &&
+        lies_in_plane(data, v, grid->axis[0].dimension, grid->axis[1].dimension) &&
+        fg__is_listed(listed, v->plain_name) == fg__is_listed(listed, taken->plain_name))
+      return v;
+  }
+  return NULL;
+}
+
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
                      const fg__variable *variable)
 {

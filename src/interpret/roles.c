@@ -29,24 +29,34 @@ static bool lies_along(const fg__dataset *data, const fg__variable *v, int dimen
            fg__alike_dimension(data, v->dimension[0], dimension)));
 }
 
-/* Whether a coordinate is one of space by its name alone, as "lon" or "y". */
-static bool is_called_place(const fg__variable *v)
+/* The coordinate that the names of those along one dimension tell: the one that fits
+ * best, of one axis. */
+typedef struct called {
+  const fg__variable *best; /* NULL: several fit as well */
+  fg__role role;            /* NO_ROLE: none, or of several axes, as points have them */
+  int fits;
+} called;
+
+static void consider_name(called *c, const fg__variable *v)
 {
-  for (int use = FG__COLUMN_X; use <= FG__COLUMN_LATITUDE; ++use)
-    if (fg__column_fits(v->plain_name, (fg__column_use)use) == 2)
-      return true;
-  return false;
+  int fits;
+  const fg__role role = fg__place_of_name(&fits, v->plain_name);
+  fits = 2 * fits + (v->geographic != FG__NO_ROLE);
+  if (role == FG__NO_ROLE || fits < c->fits)
+    return;
+  c->best = fits > c->fits ? v : NULL;
+  c->role = c->fits == 0 || c->role == role ? role : FG__NO_ROLE;
+  c->fits = fits;
 }
 
 /* The coordinate of a dimension: the variable of its name; else one whose attributes say
- * that it is one; else the only one with a place's name, for several are those of
- * points. */
+ * that it is one; else one with a place's name. */
 const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
                                    int k)
 {
   const int dimension = variable->dimension[k];
-  const fg__variable *otherwise = NULL, *called = NULL;
-  int places = 0;
+  const fg__variable *otherwise = NULL;
+  called by_name = {NULL, FG__NO_ROLE, 0};
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     if (!lies_along(data, v, dimension))
@@ -55,12 +65,9 @@ const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *
       return v;
     if (!otherwise && role_of_attributes(v) != FG__NO_ROLE)
       otherwise = v;
-    if (is_called_place(v)) {
-      called = v;
-      ++places;
-    }
+    consider_name(&by_name, v);
   }
-  return otherwise || places != 1 ? otherwise : called;
+  return otherwise || by_name.role == FG__NO_ROLE ? otherwise : by_name.best;
 }
 
 /* Whether a variable names a coordinate, or xarray lists it for the file. */

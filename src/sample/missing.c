@@ -10,6 +10,13 @@ enum { DIGITS = 8 }; /* a float has no more */
 /* Codes for missing data have at least this size in the conventions of all formats. */
 static const float SMALLEST_CODE = 99.0F;
 
+/* Smaller ones are codes where they are a number of two bytes (32.767), or all components
+ * have them together (-9). */
+static const float SMALLEST_TOGETHER = 9.0F;
+
+/* 270 beside 5 are directions. */
+static const float LARGEST_DIRECTION = 360.0F;
+
 /* A customary code lies apart from other values by this share of their range; any other
  * number is this many times as large as they are. */
 static const double CUSTOMARY_GAP = 0.2, LEAST_RATIO = 10.0;
@@ -41,7 +48,7 @@ fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
 static void take_low(fg__extreme *e, float value)
 {
   if (value < e->value) {
-    *e = (fg__extreme){value, e->value, 1};
+    *e = (fg__extreme){value, e->value, 1, 0};
   } else if (value > e->value) {
     e->next = value;
   } else {
@@ -52,7 +59,7 @@ static void take_low(fg__extreme *e, float value)
 static void take_high(fg__extreme *e, float value)
 {
   if (value > e->value) {
-    *e = (fg__extreme){value, e->value, 1};
+    *e = (fg__extreme){value, e->value, 1, 0};
   } else if (value < e->value) {
     e->next = value;
   } else {
@@ -68,11 +75,26 @@ static bool is_present(const fg__raw_samples *s, size_t i)
   return present;
 }
 
+/* Whether all components are one number. */
+static bool is_together(const fg__raw_samples *s, size_t i)
+{
+  int k = 1;
+  while (k < s->components && !(s->component[k][i] < s->component[0][i]) &&
+         !(s->component[k][i] > s->component[0][i]))
+    ++k;
+  return k == s->components;
+}
+
+static void take_together(fg__extreme *e, float value)
+{
+  e->together += !(value < e->value) && !(value > e->value);
+}
+
 void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples)
 {
   for (int k = 0; k < samples->components && extremes->count == 0; ++k) {
-    extremes->low[k] = (fg__extreme){INFINITY, INFINITY, 0};
-    extremes->high[k] = (fg__extreme){-INFINITY, -INFINITY, 0};
+    extremes->low[k] = (fg__extreme){INFINITY, INFINITY, 0, 0};
+    extremes->high[k] = (fg__extreme){-INFINITY, -INFINITY, 0, 0};
   }
   for (size_t i = 0; i < samples->count; ++i) {
     if (!is_present(samples, i))
@@ -85,16 +107,11 @@ void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples)
       if (value >= extremes->high[k].value || value > extremes->high[k].next)
         take_high(&extremes->high[k], value);
     }
+    for (int k = 0; k < samples->components && is_together(samples, i); ++k) {
+      take_together(&extremes->low[k], samples->component[0][i]);
+      take_together(&extremes->high[k], samples->component[0][i]);
+    }
   }
-}
-
-bool fg__extremes_are_suspect(const fg__extremes *extremes, int components)
-{
-  bool suspect = false;
-  for (int k = 0; k < components && extremes->count > 0; ++k)
-    suspect = suspect || extremes->low[k].value <= -SMALLEST_CODE ||
-              extremes->high[k].value >= SMALLEST_CODE;
-  return suspect;
 }
 
 /* Numbers that programs write for missing data and that may be near to other values:
@@ -112,18 +129,49 @@ static bool is_customary(float value)
   return false;
 }
 
-/* Whether an extreme stands for missing data; `other` is the opposite end of all others.
- */
-static bool is_code(const fg__extreme *e, float other)
+/* Whether a number is an end of whole numbers in two bytes, times a power of ten. */
+static bool is_of_two_bytes(float value)
 {
-  if (e->count < 2 || !(fabsf(e->value) >= SMALLEST_CODE) || !isfinite(e->next))
+  static const double ends[] = {32767.0, 32768.0, 65535.0};
+  const float size = fabsf(value);
+  for (int n = 0; n < 3; ++n)
+    for (double scale = 1.0; scale < 1e6; scale *= 10.0)
+      if (size >= (float)(ends[n] / scale) && size <= (float)(ends[n] / scale))
+        return true;
+  return false;
+}
+
+/* Whether an extreme that recurs may be a code, whatever others are. */
+static bool may_be_code(const fg__extreme *e)
+{
+  return e->count > 1 &&
+         (fabsf(e->value) >= SMALLEST_CODE || is_of_two_bytes(e->value) ||
+          (e->together == e->count && fabsf(e->value) >= SMALLEST_TOGETHER &&
+           is_customary(e->value)));
+}
+
+bool fg__extremes_are_suspect(const fg__extremes *extremes, int components)
+{
+  bool suspect = false;
+  for (int k = 0; k < components && extremes->count > 0; ++k)
+    suspect =
+        suspect || may_be_code(&extremes->low[k]) || may_be_code(&extremes->high[k]);
+  return suspect;
+}
+
+/* Whether an extreme stands for missing data; `other` is the opposite end of all others,
+ * `largest_value` the size up to which only customary codes are. */
+static bool is_code(const fg__extreme *e, float other, float largest_value)
+{
+  if (!may_be_code(e) || !isfinite(e->next))
     return false;
   const double gap = fabs((double)e->value - (double)e->next);
   const double range = fabs((double)e->next - (double)other);
   const double largest = fmax(fabs((double)e->next), fabs((double)other));
-  return is_customary(e->value)
+  return is_customary(e->value) || is_of_two_bytes(e->value)
              ? gap >= CUSTOMARY_GAP * range && fabs((double)e->value) > largest
-             : largest > 0.0 && fabs((double)e->value) >= LEAST_RATIO * largest;
+             : largest > 0.0 && fabsf(e->value) > largest_value &&
+                   fabs((double)e->value) >= LEAST_RATIO * largest;
 }
 
 static fg_status refuse(fg_context *context, const fg__raw_samples *s, int k,
@@ -155,9 +203,10 @@ fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
 {
   for (int k = 0; k < samples->components && extremes->count > 0 && !given->none; ++k) {
     const fg__extreme *low = &extremes->low[k], *high = &extremes->high[k];
-    if (is_code(high, low->value))
+    const float most = samples->is_polar && k == 1 ? LARGEST_DIRECTION : 0.0F;
+    if (is_code(high, low->value, most))
       return refuse(context, samples, k, high, extremes->count, low->value);
-    if (is_code(low, high->value))
+    if (is_code(low, high->value, most))
       return refuse(context, samples, k, low, extremes->count, high->value);
   }
   return FG_STATUS_OK;

@@ -12,6 +12,7 @@ typedef struct fg__raw_samples {
   int components;
   size_t count;
   const unsigned char *valid; /* 0: masked; NULL: none is */
+  bool is_polar;              /* the first is a length, the second its direction */
 } fg__raw_samples;
 
 /* Reads fg_read_options.missing into a dataset: numbers with commas between, or "none";
@@ -22,10 +23,11 @@ fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
 /* Makes samples NaN that are one of the given numbers. */
 void fg__missing_mask(const fg__raw_samples *samples, const fg__missing_numbers *given);
 
-/* The greatest or least number of a component, how often it occurs, and the next one. */
+/* The greatest or least number of a component, how often it occurs, how often in all
+ * components together, and the next one. */
 typedef struct fg__extreme {
   float value, next;
-  size_t count;
+  size_t count, together;
 } fg__extreme;
 
 /* The ends of each component's values, in all parts of a field that were looked at. */
@@ -36,13 +38,13 @@ typedef struct fg__extremes {
 
 void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples);
 
-/* Whether values are as large as numbers that stand for missing data are: only then a
- * look at all parts could find one. */
+/* Whether values may stand for missing data: only then a look at all parts could find
+ * one. */
 bool fg__extremes_are_suspect(const fg__extremes *extremes, int components);
 
 /* Refuses a component where one number recurs that lies apart from all others, as -9999
- * or 1e20, unless none is missing: the message has its name, its share and the option
- * that decides. Of `samples` path and names count. ARGUMENT. */
+ * or 1e20, unless none is missing: the message has its name, its
+ * share and the option that decides. Of `samples` path and names count. ARGUMENT. */
 fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
                              const fg__raw_samples *samples,
                              const fg__missing_numbers *given);

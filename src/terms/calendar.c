@@ -13,9 +13,9 @@ bool fg__calendar_find(fg__calendar *out, const char *name)
 {
   static const char *const names[] = {
       [FG__CALENDAR_STANDARD] = "|standard|gregorian",
-      [FG__CALENDAR_GREGORIAN] = "proleptic_gregorian",
+      [FG__CALENDAR_GREGORIAN] = "proleptic_gregorian|gregorian_proleptic", /* ROMS */
       [FG__CALENDAR_JULIAN] = "julian",
-      [FG__CALENDAR_NOLEAP] = "noleap|365_day|365",
+      [FG__CALENDAR_NOLEAP] = "noleap|no_leap|365_day|365",
       [FG__CALENDAR_ALL_LEAP] = "all_leap|366_day|366",
       [FG__CALENDAR_360_DAYS] = "360_day|360", /* the second of the IRI Data Library */
   };
@@ -100,4 +100,10 @@ fg__date fg__calendar_date(fg__calendar calendar, int64_t day)
     day -= month_length(calendar, date.year, date.month++);
   date.day = (int)day + 1;
   return date;
+}
+
+bool fg__calendar_has(fg__calendar calendar, fg__date date)
+{
+  const fg__date same = fg__calendar_date(calendar, fg__calendar_day(calendar, date));
+  return same.year == date.year && same.month == date.month && same.day == date.day;
 }

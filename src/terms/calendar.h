@@ -31,4 +31,7 @@ int64_t fg__calendar_day(fg__calendar calendar, fg__date date);
 /* The date of a day's number. */
 fg__date fg__calendar_date(fg__calendar calendar, int64_t day);
 
+/* Whether a calendar has a date: 30 February has only that of 360 days. */
+bool fg__calendar_has(fg__calendar calendar, fg__date date);
+
 #endif

@@ -86,6 +86,8 @@ static void names(void **state)
       {"Gregorian", FG__CALENDAR_STANDARD},
       {"standard", FG__CALENDAR_STANDARD},
       {"proleptic_gregorian", FG__CALENDAR_GREGORIAN},
+      {"gregorian_proleptic", FG__CALENDAR_GREGORIAN},
+      {"no_leap", FG__CALENDAR_NOLEAP},
       {"julian", FG__CALENDAR_JULIAN},
       {"365_day", FG__CALENDAR_NOLEAP},
       {"NOLEAP", FG__CALENDAR_NOLEAP},

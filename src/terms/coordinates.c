@@ -61,7 +61,20 @@ static const char *const COLUMNS[] = {
 
 /* Names that a place has where no other column has it. */
 static const char *const POSSIBLE[] = {
-    [FG__COLUMN_X] = "px", [FG__COLUMN_Y] = "py", [FG__COLUMN_Z] = "pz"};
+    [FG__COLUMN_X] = "px|xx", [FG__COLUMN_Y] = "py|yy", [FG__COLUMN_Z] = "pz|zz"};
+
+/* A place on a grid is called after what it is, perhaps behind the grid and before the
+ * point or a number: "x_rho", "xu", "grid_xt", "nav_lon_u", "ULAT", "lon_0", "glamt". */
+static const char *const STEMS[] = {[FG__COLUMN_X] = "x|easting",
+                                    [FG__COLUMN_Y] = "y|northing",
+                                    [FG__COLUMN_Z] = "z",
+                                    [FG__COLUMN_LONGITUDE] = "longitude|long|lon|glam",
+                                    [FG__COLUMN_LATITUDE] = "latitude|lat|gphi"};
+static const char GRIDS[] = "grid_", GLOBES[] = "nav_|geo|t|u|v|p|q|c|e|g|x";
+static const char POINTS[] =
+    "rho|psi|t|u|v|w|c|f|d|h|l|r|q|p|m|g|s|cc|fc|cell|cells|face|faces|node|nodes|center|"
+    "centers|centre|centres|corner|corners|edge|edges|vertex|vertices|point|points|grid|"
+    "stag|mid|vor";
 
 static fg__role find_role(const role_row *rows, size_t count, const char *word)
 {
@@ -74,6 +87,70 @@ static fg__role find_role(const role_row *rows, size_t count, const char *word)
 static const char *or_empty(const char *text)
 {
   return text ? text : "";
+}
+
+/* "x_mm" for axis 0: a letter with a unit. */
+static bool is_place_with_unit(const char *plain, fg__column_use use)
+{
+  return use <= FG__COLUMN_Z && plain[0] == "xyz"[use] && plain[1] == '_' &&
+         fg__is_unit_in_name(plain + 2);
+}
+
+/* Whether the rest of a name is a point of a grid or a number, or nothing. */
+static bool is_point(const char *rest)
+{
+  rest += *rest == '_';
+  return !rest[strspn(rest, "0123456789")] || fg__is_one_of(POINTS, rest, strlen(rest));
+}
+
+/* Whether a name is one of the words of a list, and a point behind. */
+static bool is_at_point(const char *plain, const char *stems)
+{
+  for (size_t n; *stems; stems += n + (stems[n] == '|')) {
+    n = strcspn(stems, "|");
+    if (strncmp(plain, stems, n) == 0 && is_point(plain + n))
+      return true;
+  }
+  return false;
+}
+
+static bool is_place_on_grid(const char *plain, fg__column_use use)
+{
+  if (use > FG__COLUMN_LATITUDE)
+    return false;
+  const char *before = use >= FG__COLUMN_LONGITUDE ? GLOBES : GRIDS;
+  bool found = is_at_point(plain, STEMS[use]);
+  for (size_t n; *before && !found; before += n + (before[n] == '|')) {
+    n = strcspn(before, "|");
+    found = strncmp(plain, before, n) == 0 && is_at_point(plain + n, STEMS[use]);
+  }
+  return found;
+}
+
+int fg__column_fits(const char *name, fg__column_use use)
+{
+  char plain[64];
+  fg__plain_name(plain, sizeof plain, name);
+  if (fg__is_one_of(COLUMNS[use], plain, strlen(plain)))
+    return 2;
+  return is_place_with_unit(plain, use) || is_place_on_grid(plain, use) ||
+         (use <= FG__COLUMN_Z && fg__is_one_of(POSSIBLE[use], plain, strlen(plain)));
+}
+
+fg__role fg__place_of_name(int *fits, const char *name)
+{
+  static const fg__role roles[] = {FG__ROLE_X, FG__ROLE_Y, FG__ROLE_LEVEL, FG__ROLE_X,
+                                   FG__ROLE_Y};
+  fg__role role = FG__NO_ROLE;
+  *fits = 0;
+  for (int use = FG__COLUMN_LATITUDE; use >= FG__COLUMN_X; --use) {
+    const int here = fg__column_fits(name, (fg__column_use)use);
+    if (here > *fits) {
+      *fits = here;
+      role = roles[use];
+    }
+  }
+  return role;
 }
 
 static fg__role role_of_standard_name(const char *name)
@@ -115,7 +192,17 @@ fg__role fg__role_of_attributes(const fg__term *term, const char *axis, bool has
 
 fg__role fg__role_of_name(const char *name)
 {
-  const fg__role role = find_role(NAMES, COUNT_OF(NAMES), name);
+  char plain[64];
+  int fits;
+  fg__role role = find_role(NAMES, COUNT_OF(NAMES), name);
+  fg__plain_name(plain, sizeof plain, name);
+  char *point = strrchr(plain, '_');
+  if (role == FG__NO_ROLE && point && is_point(point)) {
+    *point = '\0'; /* "ni_u", "j_g" */
+    role = find_role(NAMES, COUNT_OF(NAMES), plain);
+  }
+  if (role == FG__NO_ROLE)
+    role = fg__place_of_name(&fits, name);
   if (role != FG__NO_ROLE)
     return role;
   if (fg__find_text(name, "time"))
@@ -161,35 +248,6 @@ bool fg__term_may_be_index(const fg__term *term)
   fg__unit_read(&unit, or_empty(term->units));
   return unit.quantity == FG__QUANTITY_UNKNOWN || unit.quantity == FG__QUANTITY_TIME ||
          unit.quantity == FG__QUANTITY_RADIANS;
-}
-
-/* "x_mm" for axis 0: a letter with a unit. */
-static bool is_place_with_unit(const char *plain, fg__column_use use)
-{
-  return use <= FG__COLUMN_Z && plain[0] == "xyz"[use] && plain[1] == '_' &&
-         fg__is_unit_in_name(plain + 2);
-}
-
-int fg__column_fits(const char *name, fg__column_use use)
-{
-  char plain[64];
-  fg__plain_name(plain, sizeof plain, name);
-  if (fg__is_one_of(COLUMNS[use], plain, strlen(plain)))
-    return 2;
-  return is_place_with_unit(plain, use) ||
-         (use <= FG__COLUMN_Z && fg__is_same(POSSIBLE[use], plain));
-}
-
-/* "x_rho", "x_u", "x2", "x/D": a letter and a point of a grid, a number, or a length in
- * which it is measured. */
-static bool is_place_on_grid(const char *plain, fg__column_use use)
-{
-  static const char points[] = "rho|psi|t|u|v|w|c|f|d|h|l|r";
-  const char *rest = plain + 1;
-  if (use > FG__COLUMN_Z || plain[0] != "xyz"[use])
-    return false;
-  rest += *rest == '_';
-  return !rest[strspn(rest, "0123456789")] || fg__is_one_of(points, rest, strlen(rest));
 }
 
 bool fg__names_coordinate(const char *name)

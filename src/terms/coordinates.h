@@ -43,8 +43,12 @@ typedef enum fg__column_use {
 } fg__column_use;
 
 /* Whether a name is one of those that columns of that use have: 2; or may be, if no other
- * is ("px", "x_mm"): 1; else 0. */
+ * is ("px", "x_mm", "x_rho", "nav_lon_u"): 1; else 0. */
 int fg__column_fits(const char *name, fg__column_use use);
+
+/* The axis along which a name places samples, and how well it fits a column of that; X
+ * and Y may be those of the globe. */
+fg__role fg__place_of_name(int *fits, const char *name);
 
 /* Whether a name is that of a coordinate, which is no component of a vector, such as "x",
  * "xc", "x_rho", "x_0", "lon_u". */

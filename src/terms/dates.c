@@ -106,7 +106,9 @@ static bool read_reference(const char *units, double *unit, int *months, fg__dat
   if (!read_clock(&rest, &clock) || !read_clock(&rest, &ahead))
     return false;
   *seconds = clock - ahead;
-  return fabs(*seconds) <= 2.0 * DAY_SECONDS;
+  rest += strspn(rest, " ");
+  return fg__is_one_of("|Z|UTC|GMT", rest, strlen(rest)) &&
+         fabs(*seconds) <= 2.0 * DAY_SECONDS;
 }
 
 /* Writes a date, with hours, minutes and seconds as far as `rest` seconds have them. */
@@ -123,7 +125,7 @@ static size_t write_date(char *out, size_t size, fg__date d, int64_t rest)
 
 /* Absolute times of CDI (ICON, ECHAM): the digits of the date, and the part of the day.
  */
-static bool write_absolute(char *out, size_t size, double value)
+static bool write_absolute(char *out, size_t size, double value, fg__calendar calendar)
 {
   const double whole = floor(value);
   if (!(whole >= 101.0 && whole <= 99991231.0))
@@ -131,21 +133,23 @@ static bool write_absolute(char *out, size_t size, double value)
   const int64_t digits = (int64_t)whole;
   int64_t seconds = llround((value - whole) * DAY_SECONDS); /* to 1 ms */
   const fg__date date = {digits / 10000, (int)(digits / 100 % 100), (int)(digits % 100)};
-  if (date.month < 1 || date.month > 12 || date.day < 1 || date.day > 31)
+  if (date.month < 1 || date.month > 12 || !fg__calendar_has(calendar, date))
     return false;
   seconds = seconds < DAY_SECONDS ? seconds : DAY_SECONDS - 1;
   write_date(out, size, date, seconds);
   return true;
 }
 
-/* Moves a date by calendar months; the seconds of what is left of a month. UDUNITS takes
- * a month for a twelfth of a mean year, which no file means. */
+/* Moves a date by calendar months, at most to the end of one; the seconds of what is left
+ * of a month. UDUNITS takes a month for a twelfth of a mean year, which no file means. */
 static double move_by_months(fg__date *date, fg__calendar calendar, double months)
 {
   const double whole = floor(months);
   const int64_t sum = date->month - 1 + (int64_t)whole, month = (sum % 12 + 12) % 12;
   date->year += (sum - month) / 12;
   date->month = (int)month + 1;
+  while (!fg__calendar_has(calendar, *date))
+    --date->day;
   fg__date next = *date;
   next.year += month == 11;
   next.month = (int)((month + 1) % 12) + 1;
@@ -163,6 +167,15 @@ static fg__date date_after(fg__calendar calendar, fg__date from, int64_t seconds
                                          (seconds - *rest) / DAY_SECONDS);
 }
 
+/* Whether all programs mean the same day: no standard or Julian calendar agrees on years
+ * before 1 (CF conventions, section 4.4.2), of which year 0 marks a climatology. */
+static bool is_reference(fg__calendar calendar, fg__date date)
+{
+  return fg__calendar_has(calendar, date) &&
+         (date.year >= 0 ||
+          (calendar != FG__CALENDAR_STANDARD && calendar != FG__CALENDAR_JULIAN));
+}
+
 bool fg__date_of_number(double value, const char *units, const char *calendar, char *out,
                         size_t size)
 {
@@ -174,13 +187,14 @@ bool fg__date_of_number(double value, const char *units, const char *calendar, c
   int months;
   int64_t rest;
   fg__date reference;
+  if (!fg__calendar_find(&kind, calendar))
+    return false;
   if (fg__is_one_of(FG__ABSOLUTE_DATES, units, strlen(units)))
-    return write_absolute(out, size, value);
+    return write_absolute(out, size, value, kind);
   if (fg__is_one_of(FG__ABSOLUTE_MONTHS, units, strlen(units)))
-    return write_absolute(out, size, 100.0 * floor(value) + 1.0);
-  if (!fg__calendar_find(&kind, calendar) ||
-      !read_reference(units, &unit, &months, &reference, &offset) ||
-      !(fabs(value) * months <= LARGEST_DAYS / 31.0))
+    return write_absolute(out, size, 100.0 * floor(value) + 1.0, kind);
+  if (!read_reference(units, &unit, &months, &reference, &offset) ||
+      !is_reference(kind, reference) || !(fabs(value) * months <= LARGEST_DAYS / 31.0))
     return false;
   const bool is_climatology = reference.year == 0;
   double elapsed =
@@ -188,7 +202,11 @@ bool fg__date_of_number(double value, const char *units, const char *calendar, c
   if (!(fabs(elapsed += offset) <= LARGEST_DAYS * DAY_SECONDS))
     return false;
   const fg__date d = date_after(kind, reference, llround(elapsed), &rest);
-  /* COARDS: a reference in year 0 marks a climatology, whose year means nothing */
+  /* COARDS: a reference in year 0 marks a climatology, whose year means nothing; where
+     the calendar has no such year, later dates are a year apart between programs */
+  if (is_climatology && d.year > 1 &&
+      (kind == FG__CALENDAR_STANDARD || kind == FG__CALENDAR_JULIAN))
+    return false;
   if (is_climatology && d.year <= 1)
     snprintf(out, size, "%d %s (climatology)", d.day, month_name[d.month - 1]);
   else
@@ -260,23 +278,46 @@ static bool read_year(const char **text, int64_t *year)
   return true;
 }
 
+/* Hours, minutes and seconds: the greatest, and how long each is. */
+static const int MOST_OF_CLOCK[] = {24, 59, 60};
+static const double CLOCK_UNIT[] = {3600.0, 60.0, 1.0};
+
 /* The time of day after the date, as far as it goes. */
 static bool read_time_of_day(const char **text, written_date *out)
 {
-  static const int most[] = {24, 59, 60};
-  static const double unit[] = {3600.0, 60.0, 1.0};
   int part = 0;
   for (int k = 0; k < 3; ++k) {
     if (k > 0 && **text != ':')
       break;
     *text += k > 0;
-    if (!read_digits(text, 2, 0, most[k], &part))
+    if (!read_digits(text, 2, 0, MOST_OF_CLOCK[k], &part))
       return false;
-    out->second += unit[k] * part;
-    out->length = unit[k];
+    out->second += CLOCK_UNIT[k] * part;
+    out->length = CLOCK_UNIT[k];
   }
   if (out->length <= 1.0)
     out->second += read_fraction(text);
+  return true;
+}
+
+/* Reads a date and time of day without signs between, "20200115", "2020011506",
+ * "20200115T0630". */
+static bool read_digits_alone(written_date *out, const char **text)
+{
+  int year, part;
+  *out = (written_date){.length = DAY_SECONDS};
+  if (!read_digits(text, 4, 0, 9999, &year) ||
+      !read_digits(text, 2, 1, 12, &out->date.month) ||
+      !read_digits(text, 2, 1, 31, &out->date.day))
+    return false;
+  out->date.year = year;
+  *text += **text && strchr("Tt _", **text) && fg__is_digit((*text)[1]);
+  for (int k = 0; k < 3 && fg__is_digit(**text); ++k) {
+    if (!read_digits(text, 2, 0, MOST_OF_CLOCK[k], &part))
+      return false;
+    out->second += CLOCK_UNIT[k] * part;
+  }
+  *text += **text == 'Z' || **text == 'z';
   return true;
 }
 
@@ -339,8 +380,11 @@ bool fg__period_read_start(fg__period *out, const char *words)
 
 bool fg__date_of_text(const char *text, char *out, size_t size)
 {
+  enum { DIGITS = 8 };
   written_date d;
-  if (!read_date(&d, &text, true) || text[strspn(text, " ")] || d.second >= DAY_SECONDS)
+  const bool alone = strspn(text, "0123456789") >= DIGITS;
+  if (!(alone ? read_digits_alone(&d, &text) : read_date(&d, &text, true)) ||
+      text[strspn(text, " ")] || d.second >= DAY_SECONDS)
     return false;
   write_date(out, size, d.date, (int64_t)d.second);
   return true;

@@ -13,7 +13,7 @@ bool fg__date_of_number(double value, const char *units, const char *calendar, c
                         size_t size);
 
 /* Writes a date that a file has as text in the same form; false when it is none. Texts
- * are those of fg__period_read, of a day at least. */
+ * are those of fg__period_read, of a day at least, and "20200115[T06[30[00]]]". */
 bool fg__date_of_text(const char *text, char *out, size_t size);
 
 /* Writes seconds from 1970 on in the same form, with milliseconds where they are no whole

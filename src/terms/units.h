@@ -33,8 +33,8 @@ typedef struct fg__unit {
 } fg__unit;
 
 /* The other unit of dates, which CDI writes (ICON, ECHAM): the number 20200115.25. */
-#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f|YYYYMMDD|%Y%m%d"
-#define FG__ABSOLUTE_MONTHS "month as %Y%m.%f|YYYYMM|%Y%m"
+#define FG__ABSOLUTE_DATES "day as %Y%m%d.%f|day as %Y%m%d|YYYYMMDD|%Y%m%d"
+#define FG__ABSOLUTE_MONTHS "month as %Y%m.%f|month as %Y%m|YYYYMM|%Y%m"
 
 void fg__unit_read(fg__unit *out, const char *text);
 

@@ -151,10 +151,10 @@ static void dates_follow_the_calendar(void **state)
   assert_date(1.0, "days since 1582-10-04", "standard", "1582-10-15");
   assert_date(-1.0, "days since 1582-10-15", "gregorian", "1582-10-04");
   assert_date(-1.0, "days since 1582-10-15", "proleptic_gregorian", "1582-10-14");
-  /* Julian day 0 is noon of 1 January 4713 BC (year -4712); day 2451545 is 2000-01-01 12
-   * h */
-  assert_date(2451545.0, "days since -4712-01-01 12:00", "standard", "2000-01-01 12:00");
-  assert_date(-1.0, "days since -4712-01-01", "standard", "-4713-12-31");
+  /* of years before 1 one calendar alone says which they are */
+  assert_date(2451544.5, "days since -4712-01-01 12:00", "julian", NULL);
+  assert_date(2451544.5, "days since -4713-11-24 12:00", "proleptic_gregorian",
+              "2000-01-01");
   assert_date(-719528.0 - 146097.0 * 20.0, "days since 1970-01-01", "proleptic_gregorian",
               "-8000-01-01");
   assert_date(60.0, "days since 2004-01-01", "noleap", "2004-03-02");
@@ -172,12 +172,28 @@ static void dates_follow_the_calendar(void **state)
   assert_date(722.5, "months since 1960-01-01", "360", "2020-03-16");
   assert_date(1.0, "days since 1900-02-28", "JULIAN", "1900-02-29");
   assert_date(17067072.0, "hours since 1-1-1 00:00:0.0", "", "1948-01-01");
-  assert_date(1.0, "months since 2001-01-31", "",
-              "2001-03-03"); /* past the month's end */
+  assert_date(1.0, "months since 2001-01-31", "", "2001-02-28"); /* a month's end */
+  assert_date(1.0, "months since 2001-01-31", "all_leap", "2001-02-29");
+  assert_date(1.0, "years since 2000-02-29", "julian", "2001-02-28");
   assert_date(25.0, "years since 1975-03-01", "", "2000-03-01");
   assert_date(0.5, "years since 1981-01-01", "", "1981-07-01");
   assert_date(2.0, "months since 0000-01-15", "", "15 March (climatology)");
   assert_date(1e9, "months since 1980-01-01", "", NULL);
+  /* dates that the calendar does not have, and zones that are not known */
+  assert_date(20200230.0, "day as %Y%m%d.%f", "", NULL);
+  assert_date(20200230.5, "day as %Y%m%d", "360_day", "2020-02-30 12:00");
+  assert_date(20200229.0, "day as %Y%m%d.%f", "no_leap", NULL);
+  assert_date(20200115.0, "day as %Y%m%d.%f", "of my own", NULL);
+  assert_date(1.0, "days since 2001-02-29", "", NULL);
+  assert_date(1.0, "days since 2001-02-29", "366_day", "2001-03-01");
+  assert_date(1.0, "days since 1582-10-10", "standard", NULL);
+  assert_date(1.0, "days since 1582-10-10", "proleptic_gregorian", "1582-10-11");
+  assert_date(60.0, "days since 2004-01-01", "no_leap", "2004-03-02");
+  assert_date(730000.0, "days since 0000-01-01", "", NULL);
+  assert_date(730000.0, "days since 0000-01-01", "noleap", "2000-01-01");
+  assert_date(0.0, "hours since 2001-03-01 12:00 EST", "", NULL);
+  assert_date(0.0, "hours since 2001-03-01 12:00 GMT+2", "", NULL);
+  assert_date(0.0, "hours since 2001-03-01 12:00 GMT", "", "2001-03-01 12:00");
   assert_date(1.0, "fortnights since 1980-01-01", "", NULL);
 }
 
@@ -202,6 +218,21 @@ static void what_is_no_date_is_left_alone(void **state)
 {
   (void)state;
   assert_date(1.0, "days since yesterday", "", NULL);
+  /* dates that the calendar does not have, and zones that are not known */
+  assert_date(20200230.0, "day as %Y%m%d.%f", "", NULL);
+  assert_date(20200230.5, "day as %Y%m%d", "360_day", "2020-02-30 12:00");
+  assert_date(20200229.0, "day as %Y%m%d.%f", "no_leap", NULL);
+  assert_date(20200115.0, "day as %Y%m%d.%f", "of my own", NULL);
+  assert_date(1.0, "days since 2001-02-29", "", NULL);
+  assert_date(1.0, "days since 2001-02-29", "366_day", "2001-03-01");
+  assert_date(1.0, "days since 1582-10-10", "standard", NULL);
+  assert_date(1.0, "days since 1582-10-10", "proleptic_gregorian", "1582-10-11");
+  assert_date(60.0, "days since 2004-01-01", "no_leap", "2004-03-02");
+  assert_date(730000.0, "days since 0000-01-01", "", NULL);
+  assert_date(730000.0, "days since 0000-01-01", "noleap", "2000-01-01");
+  assert_date(0.0, "hours since 2001-03-01 12:00 EST", "", NULL);
+  assert_date(0.0, "hours since 2001-03-01 12:00 GMT+2", "", NULL);
+  assert_date(0.0, "hours since 2001-03-01 12:00 GMT", "", "2001-03-01 12:00");
   assert_date(1.0, "fortnights since 1970-01-01", "", NULL);
   assert_date(1.0, "days since 1970-13-01", "", NULL);
   assert_date(1.0, "days since 1970-01-01", "mayan", NULL);

@@ -304,31 +304,23 @@ static void shift_by_centre(bool *found, fg__curvilinear *mesh, const lattice *c
   *found = true;
 }
 
-/* Uses the attributes of the dimension's coordinate (ROMS, CROCO), or its name. */
-static void shift_by_words(bool *found, fg__curvilinear *mesh, const fg__dataset *data,
-                           int k)
+int fg__side_of_faces(const fg__dataset *data, const fg__variable *v, int position)
 {
   static const struct {
     const char *name;
     int shift;
   } known[] = {{"xq", 1},   {"yq", 1},  {"xi_u", 1}, {"eta_v", 1}, {"i_g", -1},
                {"j_g", -1}, {"XG", -1}, {"YG", -1},  {"XU", -1},   {"YV", -1}};
-  const fg__curvilinear_part *part = &mesh->part[k];
-  const int position = part->grid.axis[k].position;
-  const fg__variable *along = fg__coordinate(data, part->variable, position);
+  const fg__variable *along = fg__coordinate(data, v, position);
   double value;
   if (along && fg__attribute_numbers(along, "c_grid_axis_shift", &value, 1) == 1 &&
-      fabs(value) == 0.5) {
-    mesh->shift[k] = value < 0.0 ? -1 : 1;
-    *found = true;
-    return;
-  }
-  const char *name = data->dimensions[part->grid.axis[k].dimension].name;
-  for (size_t n = 0; n < sizeof known / sizeof *known && !*found; ++n)
-    if (strcmp(name, known[n].name) == 0) {
-      mesh->shift[k] = known[n].shift;
-      *found = true;
-    }
+      fabs(value) == 0.5)
+    return value < 0.0 ? -1 : 1;
+  const char *name = data->dimensions[v->dimension[position]].name;
+  for (size_t n = 0; n < sizeof known / sizeof *known; ++n)
+    if (strcmp(name, known[n].name) == 0)
+      return known[n].shift;
+  return 0;
 }
 
 /* Whether the side of the centres on which a component lies may follow from positions:
@@ -345,8 +337,11 @@ bool fg__shift_by_size(fg__curvilinear *mesh, const fg__dataset *data, int k)
   const size_t own = mesh->part[k].grid.axis[k].size, centres = mesh->size[k];
   bool found = own == centres + 1 || own + 1 == centres;
   mesh->shift[k] = own > centres ? -1 : 1; /* one more at both ends, or one less */
-  if (own == centres)
-    shift_by_words(&found, mesh, data, k);
+  if (own == centres) {
+    const fg__curvilinear_part *part = &mesh->part[k];
+    mesh->shift[k] = fg__side_of_faces(data, part->variable, part->grid.axis[k].position);
+    found = mesh->shift[k] != 0;
+  }
   return found;
 }
 

@@ -34,7 +34,129 @@
   "y[" side "]; x[" side "]; float u(y,x) :_Chunks=#1000 1000; float v(y,x) "            \
   ":_Chunks=#1000 1000"
 
+/* Coordinates along dimensions of other names, and of theirs in the other order, without
+ * units: what they are called alone says which is x. */
+#define CALLED(x, y, scale)                                                              \
+  {.what = x " along a dimension of another name",                                       \
+   .file = "r[3]; c[4]; " y "(r) = 10 20 30; " x "(c) = 2 4 6 8; float u(r,c) ~ 1 c 1; " \
+           "float v(r,c) ~ 0 r 1",                                                       \
+   .field = scale " 4 x 3|x = 2 4 6 8\n|y = 10 20 30\n|at 6 20 = 3 1|doubts ''"},        \
+  {                                                                                      \
+    .what = x " before " y,                                                              \
+    .file = x "[4] = 2 4 6 8; " y "[3] = 10 20 30; float u(" x "," y ") ~ 1 " x          \
+              " 1; float v(" x "," y ") ~ 0 " y " 1",                                    \
+    .field = scale " 4 x 3|x = 2 4 6 8\n|y = 10 20 30\n|at 6 20 = 3 1|doubts ''"         \
+  }
+/* In two dimensions, curved: of a plane samples are counted, with a word. */
+#define BOTH_WAYS(x, y, field_)                                                          \
+  {                                                                                      \
+    .what = x " in two dimensions",                                                      \
+    .file = "r[3]; c[4]; " y "(r,c) ~ 10 r 2 c .3; " x "(r,c) ~ 2 c 2 r .5; float "      \
+            "u(r,c) = 1; float v(r,c) = 1",                                              \
+    .options = {.frame = FG_FRAME_EAST}, .field = field_                                 \
+  }
+#define COUNTED(x, y)                                                                    \
+  BOTH_WAYS(x, y,                                                                        \
+            "plain 4 x 3|doubts 'axes count the samples of 'u': '" x "' and '" y         \
+            "' do not lie there'")
+
+#define FLOW(u, v) "float u(" u ") = 1; float v(" v ") = 1;"
+#define INDICES "y[3] = 0 1 2; x[4] = 0 1 2 3;"
+#define ON_FACES "doubts 'axes count cells: 'u' and 'v' lie on faces without positions"
+
 static const situation SITUATIONS[] = {
+    {.what = "faces without positions",
+     .file = "j[4]; i[4]; j_g[4]; i_g[4];" FLOW("j,i_g", "j_g,i"),
+     .field = "plain 3 x 3|" ON_FACES},
+    {.what = "the same, whose faces and centres are counted",
+     .file = "j[4] = 0 1 2 3; i[4] = 0 1 2 3; j_g[4] = 0 1 2 3; i_g[4] = 0 1 2 3;" FLOW(
+         "j,i_g", "j_g,i"),
+     .field = "plain 3 x 3|" ON_FACES},
+    {.what = "faces on both sides of cells (WRF)",
+     .file = "south_north[3]; west_east[4]; south_north_stag[4]; west_east_stag[5];" FLOW(
+         "south_north,west_east_stag", "south_north_stag,west_east"),
+     .field = "plain 4 x 3|" ON_FACES,
+     .inventory = ON_FACES},
+    {.what = "faces at places of a plane",
+     .file =
+         "j[4] :units=m = 5 15 25 35; i[4] :units=m = 5 15 25 35; j_g[4] :units=m = 0 "
+         "10 20 30; i_g[4] :units=m = 0 10 20 30;" FLOW("j,i_g", "j_g,i"),
+     .field = "map 3 x 3|x = 5 15 25\n|doubts ''"},
+    {.what = "sample numbers beside positions of other points",
+     .file = INDICES "r[4]; c[5]; lon(r,c) ~ 9 c 1; lat(r,c) ~ 9 r 1;" FLOW("y,x", "y,x"),
+     .field =
+         "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' and 'lat' do not lie "
+         "there'",
+     .inventory = "doubts 'axes count the samples of 'u'"},
+    {.what = "positions by their standard names in a plane (Delft3D)",
+     .file =
+         "m[3]; n[4]; XZ(m,n) :units=m :standard_name=projection_x_coordinate ~ 9 m 5 "
+         "n 1; YZ(m,n) :units=m :standard_name=projection_y_coordinate ~ 9 n 5 m 1;" FLOW(
+             "m,n", "m,n"),
+     .field =
+         "plain |doubts 'axes count the samples of 'u': 'XZ' and 'YZ' do not lie there"},
+    {.what = "positions of two points of cells, of which nothing says which are meant",
+     .file =
+         "j[4]; i[5]; TLONG(j,i) ~ 9 i 1 j .2; TLAT(j,i) ~ 9 j 1; ULONG(j,i) ~ 9.5 i 1 "
+         "j .2; ULAT(j,i) ~ 9.5 j 1;" FLOW("j,i", "j,i"),
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo |doubts ''u' is taken to lie at 'TLONG', not at 'ULONG''"},
+    {.what = "the same, where the attribute says",
+     .file =
+         "j[4]; i[5]; TLONG(j,i) ~ 9 i 1 j .2; TLAT(j,i) ~ 9 j 1; ULONG(j,i) ~ 9.5 i 1 "
+         "j .2; ULAT(j,i) ~ 9.5 j 1; float u(j,i) :coordinates=ULONG ULAT = 1; float "
+         "v(j,i) :coordinates=ULONG ULAT = 1",
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo |doubts ''"},
+    {.what = "longitudes without latitudes",
+     .file = INDICES "lon(y,x) ~ 9 x 1;" FLOW("y,x", "y,x"),
+     .field =
+         "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' does not lie there'"},
+    {.what = "the same along an axis",
+     .file = "lat[3]; lon[4] = 10 20 30 40;" FLOW("lat,lon", "lat,lon"),
+     .field = "doubts ''lat' counts samples, beside 'longitude' in degrees'"},
+    {.what = "longitude and latitude without numbers",
+     .file = "lat[3]; lon[4];" FLOW("lat,lon", "lat,lon"),
+     .field =
+         "plain 4 x 3|doubts ''lon' and 'lat' count samples: they have no coordinates'"},
+    {.what = "x and y of a unit of their own",
+     .file = "y[3] = 0 .1 .2; x[4] = 0 .1 .2 .3; r[4]; lon(r) = 1; lat(r) = 1;" FLOW(
+         "y,x", "y,x"),
+     .field = "plain 4 x 3|x = 0 0.1 0.2 0.3\n|doubts ''"},
+    {.what = "sample numbers, where the file has no places",
+     .file = INDICES FLOW("y,x", "y,x"),
+     .field = "plain 4 x 3|doubts ''"},
+    CALLED("x_f", "y_f", "plain"),
+    CALLED("x_rho", "y_rho", "plain"),
+    CALLED("xu", "yu", "plain"),
+    CALLED("xq", "yq", "plain"),
+    CALLED("XG", "YG", "plain"),
+    CALLED("X1", "Y1", "plain"),
+    CALLED("grid_xt", "grid_yt", "plain"),
+    CALLED("xCell", "yCell", "plain"),
+    CALLED("easting_c", "northing_c", "plain"),
+    CALLED("lon_0", "lat_0", "geo"),
+    CALLED("nav_lon_u", "nav_lat_u", "geo"),
+    CALLED("longitude_t", "latitude_t", "geo"),
+    CALLED("TLONG", "TLAT", "geo"),
+    CALLED("XLONG_U", "XLAT_U", "geo"),
+    CALLED("geolon_c", "geolat_c", "geo"),
+    CALLED("glamt", "gphit", "geo"),
+    CALLED("ulon", "ulat", "geo"),
+    BOTH_WAYS("glamu", "gphiu", "geo "),
+    BOTH_WAYS("nav_lon_grid", "nav_lat_grid", "geo "),
+    COUNTED("x_rho", "y_rho"),
+    COUNTED("xc", "yc"),
+    COUNTED("x_face", "y_face"),
+    {.what = "places of cells and faces along one dimension: neither is taken",
+     .file = "r[3]; c[4]; y_c(r) = 1 2 3; y_f(r) = 1.5 2.5 3.5; x_c(c) = 2 4 6 8; x_f(c) "
+             "= 3 5 7 9; float u(r,c) = 1; float v(r,c) = 1",
+     .field = "plain 4 x 3|x = 0 1 2 3\n|doubts 'axes count the samples of 'u'"},
+    {.what = "positions along one dimension are those of points, not its axis",
+     .file =
+         "n[4]; r[3]; lon_0(n) = 1 2 3 1; lat_0(n) = 4 3 1 1; float u(r,n) = 1; float "
+         "v(r,n) = 1",
+     .field = "geo "},
     {.what = "a closed circle is periodic",
      .file = OF_LONGITUDES("[36]" EAST "5:355:10"),
      .field = "geo 36 x 3|period 0 360|at -355 0 = 1 1|at 357.5 0 = 27.25 27.25"},

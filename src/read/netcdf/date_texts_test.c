@@ -43,6 +43,16 @@
 
 static const situation SITUATIONS[] = {
     EVERY("Times"),
+    {.what = "dates without signs",
+     .file = STRINGS("date", "20100715 & 2010071612 & 20100716T123030Z"),
+     .mode = NC_NETCDF4,
+     .field = "time '2010-07-15'",
+     .inventory =
+         "times 3\n|time '2010-07-15' nan ''|time '2010-07-16 12:00' nan ''|time "
+         "'2010-07-16 12:30:30' nan ''"},
+    NO_DATE("20101315"),
+    NO_DATE("201007"),
+    NO_DATE("20100715 125"),
     EVERY("xtime"),
     EVERY("Time"),
     EVERY("valid_time"),

@@ -336,7 +336,8 @@ static fg_status fill(centre_values *all, fg__curvilinear *mesh, const fg__datas
       .name = {mesh->part[0].variable->plain_name, mesh->part[1].variable->plain_name},
       .component = {all->component[0], all->component[1]},
       .components = 2,
-      .count = all->count};
+      .count = all->count,
+      .is_polar = mesh->polar.sense != 0};
   if (status == FG_STATUS_OK)
     status = fg__missing_settle(data->context, &raw, &data->missing);
   if (status == FG_STATUS_OK)

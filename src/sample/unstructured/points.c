@@ -88,7 +88,8 @@ static fg_status settle(fg__scatter *out, double *const velocity[3],
   fg__raw_samples raw = {.path = r->data->file[0].path,
                          .components = out->dimension,
                          .count = r->grid->samples,
-                         .valid = valid};
+                         .valid = valid,
+                         .is_polar = r->pair->polar.sense != 0};
   for (int k = 0; k < out->dimension && k < 3 && velocity[k]; ++k) {
     for (size_t n = 0; n < raw.count; ++n)
       out->velocity[k][n] = fg__as_velocity(velocity[k][n]);

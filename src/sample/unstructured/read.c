@@ -131,7 +131,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
       .name = {r->pair->component[0]->plain_name, r->pair->component[1]->plain_name},
       .component = {velocity[0], velocity[1]},
       .components = 2,
-      .count = grid->samples};
+      .count = grid->samples,
+      .is_polar = r->pair->polar.sense != 0};
   if (status == FG_STATUS_OK)
     status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
   if (status == FG_STATUS_OK)
