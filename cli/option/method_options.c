@@ -17,7 +17,7 @@ static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
 static const char *const start_words[] = {"clusters", "even", NULL};
 const char *const effort_words[] = {"1", "0", "2", NULL};
 static const char *const class_words[] = {"arrows", "free", NULL};
-const char *const extent_words[] = {"cluster", NULL};
+const char *const extent_words[] = {"cluster", "territory", NULL};
 
 /* Ranges exclude values that make no sense for any input; the library refuses those that
  * do not fit the input. 16385 nodes a side is 2^14 cells: 270 million nodes, several
@@ -113,7 +113,9 @@ static const option_entry method_entries[] = {
              "of clusters, descending, as 200,50,12; a scale is the first snapshot at or "
              "below the number"},
     {"extent", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, extent), .words = extent_words,
-     .help = "where an arrow ends: inside its `cluster`, the only KIND [cluster]"},
+     .help = "of --clusters, where an arrow ends: inside its `cluster`, or in its "
+             "`territory`, "
+             "which is nearer to it than to other clusters [cluster]"},
     {"energy", 0, "KIND", RUNS, OPTION_TEXT, EVOLUTION(energy),
      .help = "interfacial energy: `flow` draws clusters out along the streamlines, "
              "`gradient` along the level sets of the speed, `isotropic` ignores the "

@@ -88,7 +88,7 @@ typedef struct run_settings {
   int start;                    /* of a placement: clusters (0), even */
   int effort;                   /* fg_effort */
   int lengths;                  /* fg_lengths */
-  int extent;                   /* cluster (0), the only one */
+  int extent;                   /* fg_extent */
   double max_time;
   int max_steps;
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */

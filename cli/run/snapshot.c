@@ -9,6 +9,8 @@
 static bool needs_all(const cli_run *run)
 {
   const run_settings *settings = run->settings;
+  if (settings->extent == FG_EXTENT_TERRITORY)
+    return true;
   if (scales_are_solid(run->field))
     return settings->picture.surfaces || settings_place(settings);
   return settings_place(settings) || settings->picture.tint ||

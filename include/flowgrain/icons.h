@@ -44,9 +44,17 @@ typedef struct fg_icon {
   const double (*spine)[3], (*streamline)[3];
 } fg_icon;
 
+/* Where an icon's arrow may reach. */
+typedef enum fg_extent {
+  FG_EXTENT_CLUSTER = 0, /* to the boundary of its cluster */
+  FG_EXTENT_TERRITORY    /* through the points that are nearer to its cluster than to any
+                            other: for three mean extents of a territory at most */
+} fg_extent;
+
 /* A zero field means its default, in brackets. */
 typedef struct fg_icon_options {
-  int threads; /* the result does not depend on it [1] */
+  fg_extent extent; /* [CLUSTER] */
+  int threads;      /* the result does not depend on it [1] */
 } fg_icon_options;
 
 typedef struct fg_icons fg_icons;
@@ -58,8 +66,10 @@ typedef struct fg_icons fg_icons;
  * either side gives an icon on each, with the same `cluster`. Of a distributed density
  * the call is collective: each rank makes the icons of some clusters from a window round
  * each, and rank 0 gets all, the same as of the whole density; on other ranks *out
- * becomes NULL. ARGUMENT (a density and a field of different dimensions), MEMORY,
- * STOPPED, MPI. */
+ * becomes NULL. A territory's arrow passes through its cluster, which it has the number
+ * of; area is the territory's. Where none does the arrow is the cluster's. ARGUMENT (a
+ * density and a field of different dimensions, territories of a distributed density),
+ * MEMORY, STOPPED, MPI. */
 FG_API fg_status fg_icons_create(fg_icons **out, fg_context *context,
                                  const fg_field *field, const fg_density *density,
                                  const fg_icon_options *options);

@@ -1,4 +1,5 @@
 #include "icon/arrow.h"
+#include "icon/territory.h"
 
 #include "base/memory.h"
 #include "base/vector.h"
@@ -126,7 +127,8 @@ fg_status fg__arrow_fit_solid(fg__arrow *out, fg_context *context,
   for (int i = 0; i < samples->count; i++)
     deepest = fmax(deepest, samples->sample[i].clearance);
   double least = LEAST_HEAD * interior->spacing / FG__SOLID_HEAD_WIDTH;
-  double width = fmin(WIDEST * length, 2 * deepest / FG__SOLID_HEAD_WIDTH);
+  const double most = fmin(length, fg__territory_longest(interior->window->territory));
+  double width = fmin(WIDEST * most, 2 * deepest / FG__SOLID_HEAD_WIDTH);
   for (; width >= least; width *= NARROWER) {
     if (length * pow(width, FG__WIDTH_EXPONENT) <= best)
       break;
@@ -137,7 +139,7 @@ fg_status fg__arrow_fit_solid(fg__arrow *out, fg_context *context,
       if (!head_fits(samples, tip, width, &base))
         continue;
       int tail = find_tail(samples, base, tip, width);
-      int longest = (int)(width / (SLIMMEST * samples->step));
+      int longest = (int)(fmin(width / SLIMMEST, most) / samples->step);
       tail = tip - tail > longest ? tip - longest : tail;
       double value = (tip - tail) * samples->step * pow(width, FG__WIDTH_EXPONENT);
       if (tail >= base || value <= best)

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "icon/territory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,6 +23,11 @@ static const double WIDTH_EXPONENT = 0.25;
 /* No line in 2D is traced from where one has passed already: nearer than this share of
  * the distance from the middle of the spine to the boundary. */
 static const double PASSED = 0.2;
+
+/* Of an arrow through a territory: the largest width over the largest length, and the
+ * steps by which it is made longer. */
+static const double WIDEST_STRETCHED = 0.02;
+enum { STRETCHES = 8 };
 
 /* Longest step: no longer than a cell of the data, where the field has its bends. */
 static double step_limit(const fg_field *field, const fg__interior *interior)
@@ -84,8 +90,13 @@ static fg_status collect_points(const fg__choice *choice)
   return status;
 }
 
+static const fg__territory *territory_of(const fg__choice *choice)
+{
+  return choice->interior->window->territory;
+}
+
 /* Root of the mean square distance from the cluster's points to a part of the line just
- * tried, weighed with an arrow's width: the less the better. */
+ * tried, in a cluster weighed with an arrow's width: the less the better. */
 static double cost_of(const fg__choice *choice, double tail, double tip, double width)
 {
   const fg__chooser *chooser = choice->chooser;
@@ -104,7 +115,8 @@ static double cost_of(const fg__choice *choice, double tail, double tip, double 
     }
     sum += nearest / (nearest + choice->reach);
   }
-  return sqrt(sum / fmax(chooser->point_count, 1)) / pow(width, WIDTH_EXPONENT);
+  const double apart = sqrt(sum / fmax(chooser->point_count, 1));
+  return territory_of(choice) ? apart : apart / pow(width, WIDTH_EXPONENT);
 }
 
 /* The node next to a point, or -1 outside the window. */
@@ -144,6 +156,42 @@ bool fg__choice_has_passed(const fg__choice *choice, const double point[2])
   return false;
 }
 
+/* Lengthens the arrow in a territory to the ends of its line, to its bound and the
+ * largest turning at most; a large territory does not make a fat arrow. */
+static void stretch(fg__arrow *arrow, const fg__streamline *line, double longest)
+{
+  const fg__arrow chosen = *arrow;
+  const double total = fg__streamline_length(line);
+  const double middle = 0.5 * (chosen.tail + chosen.tip);
+  const double first = fmax(0.0, fmin(middle - 0.5 * longest, total - longest));
+  const double last = fmin(total, first + longest);
+  double at[3];
+  arrow->width = fmin(arrow->width, WIDEST_STRETCHED * longest);
+  for (int k = STRETCHES; k > 0; --k) {
+    const double share = (double)k / STRETCHES;
+    arrow->tail = chosen.tail + share * fmin(first - chosen.tail, 0.0);
+    arrow->tip = chosen.tip + share * fmax(last - chosen.tip, 0.0);
+    arrow->turning = fabs(fg__streamline_at(line, arrow->tip, NULL, at, NULL) -
+                          fg__streamline_at(line, arrow->tail, NULL, at, NULL));
+    if (arrow->turning <= FG__LARGEST_TURNING)
+      return;
+  }
+  *arrow = chosen;
+}
+
+/* Whether the arrow passes through the territory's own cluster. */
+static bool meets_cluster(const fg__choice *choice, const fg__arrow *arrow)
+{
+  const fg__territory *territory = territory_of(choice);
+  const fg__streamline *line = &choice->chooser->tried;
+  bool meets = false;
+  for (int i = 0; i < line->count && !meets; i++)
+    meets = line->node[i].s >= arrow->tail && line->node[i].s <= arrow->tip &&
+            fg__territory_meets(territory, choice->interior->window->cluster,
+                                line->node[i].position);
+  return meets;
+}
+
 fg_status fg__choice_try(fg__choice *choice, const double start[3])
 {
   fg__chooser *chooser = choice->chooser;
@@ -164,7 +212,13 @@ fg_status fg__choice_try(fg__choice *choice, const double start[3])
                          &chooser->samples);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
-  double cost = cost_of(choice, arrow.tail, arrow.tip, arrow.width) * arrow.bending;
+  if (territory_of(choice)) {
+    stretch(&arrow, &chooser->tried, territory_of(choice)->longest);
+    if (!meets_cluster(choice, &arrow))
+      return FG_STATUS_OK;
+  }
+  double cost = cost_of(choice, arrow.tail, arrow.tip, arrow.width);
+  cost *= territory_of(choice) ? 1.0 : arrow.bending;
   if (cost < choice->cost) {
     fg__streamline line = chooser->best;
     chooser->best = chooser->tried;

@@ -8,6 +8,7 @@
 #include "grid/field_slabs.h"
 #include "icon/icons.h"
 #include "icon/icons_make.h"
+#include "icon/territory.h"
 
 /* Patches that a rank holds at a time have this share of its part of the grid, but for
  * one that is larger. */
@@ -17,6 +18,7 @@ typedef struct making {
   const fg_field *field;
   const fg_density *density;
   const fg__ranks *ranks;
+  const fg__territory *territory;
   fg__labels labels;
   fg__wanted_patch *wanted; /* [labels.count] */
   fg_icon *icon; /* [labels.count * FG__ICON_PIECES] those of this rank; on rank
@@ -134,7 +136,8 @@ static fg_status make_own(making *s, fg_context *context, fg_field *const *windo
                             .density = fg_density_contents(s->density),
                             .labels = &s->labels,
                             .cluster = cluster,
-                            .patch = patch};
+                            .patch = patch,
+                            .territory = s->territory};
   if (!cluster || !patch || !icon || !own_window) {
     status = fg__fail_memory(context, "the icons", most * sizeof *icon);
     goto cleanup;
@@ -277,10 +280,12 @@ static fg_status allocate(making *s, fg_context *context)
 }
 
 static fg_status create(fg_icons **out, fg_context *context, const fg_field *field,
-                        const fg_density *density, const fg_icon_options *options)
+                        const fg_density *density, int threads,
+                        const fg__territory *territory)
 {
   making s = {.field = field,
               .density = density,
+              .territory = territory,
               .ranks = fg__density_block_of(density)->partition.ranks};
   fg_status status = fg__field_check_shared(context, s.ranks, field);
   if (!status)
@@ -289,7 +294,7 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     return status;
   status = fg__ranks_agree(s.ranks, context, allocate(&s, context));
   if (!status)
-    status = make_all(&s, context, options ? options->threads : 1);
+    status = make_all(&s, context, threads);
   if (!status)
     status = bring_together(&s, context);
   if (!status && s.ranks->rank == 0)
@@ -304,6 +309,60 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
   fg__icons_free(s.icon, s.labels.count);
   free(s.wanted);
   fg__labels_clear(&s.labels);
+  return status;
+}
+
+/* Adds the icons of a cluster; `of`: of each label in the list its cluster, or NULL. */
+static fg_status add_icons(bool *added, fg_icons *to, fg_context *context,
+                           const fg_icons *from, const int *of, int cluster)
+{
+  fg_status status = FG_STATUS_OK;
+  for (int n = 0; n < fg_icons_count(from) && !status; ++n) {
+    fg_icon icon = *fg_icons_at(from, n);
+    icon.cluster = of ? of[icon.cluster] : icon.cluster;
+    if (icon.cluster != cluster)
+      continue;
+    status = fg__icons_add(to, context, &icon);
+    *added = true;
+  }
+  return status;
+}
+
+/* Icons of territories, and of clusters whose territories have none. */
+static fg_status create_wide(fg_icons **out, fg_context *context, const fg_field *field,
+                             const fg_density *density, int threads)
+{
+  fg_icons *own = NULL, *wide = NULL;
+  fg_density *territories = NULL;
+  fg__territory of = {.density = density};
+  fg_status status = fg__territories_create(&territories, &of, context, density);
+  if (!status)
+    status = create(&own, context, field, density, threads, NULL);
+  if (!status)
+    status = create(&wide, context, field, territories, threads, &of);
+  if (!status)
+    status = fg__icons_create_empty(out, context);
+  int drawn = 0;
+  const int clusters = own ? fg_icons_clusters(own) : 0;
+  for (int n = 1; n <= clusters && !status; ++n) {
+    bool added = false;
+    status = add_icons(&added, *out, context, wide, of.cluster, n);
+    if (!status && !added)
+      status = add_icons(&added, *out, context, own, NULL, n);
+    drawn += added;
+  }
+  if (!status) {
+    fg__icons_set_clusters(*out, clusters, clusters - drawn);
+    status = fg__icons_set_projection(*out, context, fg__icons_plane_of(field));
+  }
+  if (status) {
+    fg_icons_destroy(*out);
+    *out = NULL;
+  }
+  fg_icons_destroy(own);
+  fg_icons_destroy(wide);
+  fg_density_destroy(territories);
+  free(of.cluster);
   return status;
 }
 
@@ -326,7 +385,10 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
                     "icons: a field that ranks share, of a density that they do not");
   fg__counters *counters = fg__density_block_of(density)->partition.ranks->counters;
   fg_phase before = fg__phase_continue(counters, FG_PHASE_SNAPSHOTS);
-  fg_status status = create(out, context, field, density, options);
+  const int threads = options ? options->threads : 1;
+  fg_status status = options && options->extent == FG_EXTENT_TERRITORY
+                         ? create_wide(out, context, field, density, threads)
+                         : create(out, context, field, density, threads, NULL);
   fg__phase_return(counters, before);
   return status;
 }

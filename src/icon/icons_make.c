@@ -53,6 +53,7 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
     status =
         fg__window_divide(part, &parts, context, source->density, source->labels, &whole);
   for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
+    part[k].window.territory = source->territory;
     status = fg__icon_make(&icon[k], context, chooser, field_of(source, index),
                            &part[k].window);
     icon[k].area = source->labels->area[cluster - 1] * part[k].share;

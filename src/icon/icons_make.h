@@ -14,6 +14,8 @@ typedef struct fg__icon_source {
   int count;              /* of icons wanted */
   const int *cluster;     /* [count] their labels */
   const fg__patch *patch; /* [count] */
+  const struct fg__territory
+      *territory; /* clusters are territories; NULL: they are not */
 } fg__icon_source;
 
 /* Places for a cluster's icons: one across a periodic boundary may have several. */

@@ -20,6 +20,9 @@ enum { EDGE_BLOCK = 12 };
 
 /* An arrow that does not lie inside is made this much smaller, up to so many times. */
 static const double SMALLER_FLAT = 0.9, SMALLER_SOLID = 0.93;
+/* Of an arrow through a territory, which shall reach far, the length goes by this share.
+ */
+static const double TERRITORY_SHORTER = 0.1;
 enum { ATTEMPTS_FLAT = 8, ATTEMPTS_SOLID = 12 };
 
 static bool edge_is_inside(const fg__interior *interior, const double a[2],
@@ -161,9 +164,11 @@ void fg__icon_free(fg_icon *icon)
 }
 
 /* Sets the icon's points to the arrow's, made smaller until it is sound: it was chosen by
- * samples. Without points no size is. */
+ * samples. Without points no size is. `shorter`: the share by which its length goes with
+ * its width. */
 static fg_status shape(fg_icon *icon, fg_context *context, const fg__interior *interior,
-                       const fg__streamline *line, const fg__arrow *chosen)
+                       const fg__streamline *line, const fg__arrow *chosen,
+                       double shorter)
 {
   fg__arrow arrow = *chosen;
   bool flat = line->dimension == 2, sound = false;
@@ -181,7 +186,7 @@ static fg_status shape(fg_icon *icon, fg_context *context, const fg__interior *i
     status = test(&sound, context, icon, interior);
     if (status != FG_STATUS_OK)
       break;
-    double less = (1 - smaller) / 2 * (arrow.tip - arrow.tail);
+    double less = shorter * (1 - smaller) / 2 * (arrow.tip - arrow.tail);
     arrow.width *= smaller;
     arrow.tail += less;
     arrow.tip -= less;
@@ -254,7 +259,10 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
     status = fg__choose_arrow(&arrow, chooser, context, field, &interior, &spine);
   if (status == FG_STATUS_OK && arrow.width > 0) {
     out->kind = fg__icon_kind_of(arrow.turning);
-    status = shape(out, context, &interior, &chooser->best, &arrow);
+    if (window->territory)
+      status = shape(out, context, &interior, &chooser->best, &arrow, TERRITORY_SHORTER);
+    if (status == FG_STATUS_OK && !out->points)
+      status = shape(out, context, &interior, &chooser->best, &arrow, 1.0);
   }
   if (status == FG_STATUS_OK && out->points)
     status = finish(out, context, field, chooser, &interior, &spine);

@@ -219,11 +219,11 @@ cmp -s out10/scale-00.geojson out1/scale-00.geojson || fault "scale-00.geojson d
 for folder in out1 out10; do
   expect_json $folder/run.json '.parameters.extent == "cluster"'
 done
-try run synth:vortex3 -o out10t "${small[@]}" --extent territory
-expect_code 2
-expect_one_complaint
-expect_nothing_at out10t
-done_with "--extent cluster is the default, and there is no other"
+try run synth:vortex3 -o out10t "${one[@]}" --extent territory
+expect_code 0
+expect_json out10t/run.json '.parameters.extent == "territory"'
+cmp -s out10/scale-00.geojson out10t/scale-00.geojson && fault "the same arrows"
+done_with "--extent cluster is the default, and territory makes other arrows"
 
 : >file
 TMPDIR=$PWD/file try run synth:vortex3 -o out11 "${one[@]}"
