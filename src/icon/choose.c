@@ -24,7 +24,10 @@ static const double WIDTH_EXPONENT = 0.25;
  * the distance from the middle of the spine to the boundary. */
 static const double PASSED = 0.2;
 
-/* Of an arrow through a territory: the largest width over the largest length, and the
+/* A cluster is thin whose spine is longer than so many of its widths. */
+static const double THIN = 3.0;
+
+/* Of an arrow to the ends of its line: the largest width over the largest length, and the
  * steps by which it is made longer. */
 static const double WIDEST_STRETCHED = 0.02;
 enum { STRETCHES = 8 };
@@ -116,7 +119,7 @@ static double cost_of(const fg__choice *choice, double tail, double tip, double 
     sum += nearest / (nearest + choice->reach);
   }
   const double apart = sqrt(sum / fmax(chooser->point_count, 1));
-  return territory_of(choice) ? apart : apart / pow(width, WIDTH_EXPONENT);
+  return choice->stretched > 0.0 ? apart : apart / pow(width, WIDTH_EXPONENT);
 }
 
 /* The node next to a point, or -1 outside the window. */
@@ -156,15 +159,25 @@ bool fg__choice_has_passed(const fg__choice *choice, const double point[2])
   return false;
 }
 
-/* Lengthens the arrow in a territory to the ends of its line, to its bound and the
- * largest turning at most; a large territory does not make a fat arrow. */
-static void stretch(fg__arrow *arrow, const fg__streamline *line, double longest)
+double fg__stretched_length(const fg__interior *interior, const fg__spine *spine)
+{
+  const fg__territory *territory = interior->window->territory;
+  const double width = 2.0 * fg__interior_distance(interior, spine->middle);
+  if (territory)
+    return territory->longest;
+  return interior->window->dimension == 2 && spine->length > THIN * width ? HUGE_VAL
+                                                                          : 0.0;
+}
+
+void fg__arrow_stretch(fg__arrow *arrow, const fg__streamline *line, double longest,
+                       double margin)
 {
   const fg__arrow chosen = *arrow;
-  const double total = fg__streamline_length(line);
+  const double end = fg__streamline_length(line) - margin;
+  const double most = fmin(longest, end - margin);
   const double middle = 0.5 * (chosen.tail + chosen.tip);
-  const double first = fmax(0.0, fmin(middle - 0.5 * longest, total - longest));
-  const double last = fmin(total, first + longest);
+  const double first = fmax(margin, fmin(middle - 0.5 * most, end - most));
+  const double last = first + most;
   double at[3];
   arrow->width = fmin(arrow->width, WIDEST_STRETCHED * longest);
   for (int k = STRETCHES; k > 0; --k) {
@@ -212,13 +225,13 @@ fg_status fg__choice_try(fg__choice *choice, const double start[3])
                          &chooser->samples);
   if (status != FG_STATUS_OK || !(arrow.width > 0))
     return status;
-  if (territory_of(choice)) {
-    stretch(&arrow, &chooser->tried, territory_of(choice)->longest);
-    if (!meets_cluster(choice, &arrow))
-      return FG_STATUS_OK;
-  }
-  double cost = cost_of(choice, arrow.tail, arrow.tip, arrow.width);
-  cost *= territory_of(choice) ? 1.0 : arrow.bending;
+  fg__arrow drawn = arrow;
+  if (choice->stretched > 0.0)
+    fg__arrow_stretch(&drawn, &chooser->tried, choice->stretched, interior->margin);
+  if (territory_of(choice) && !meets_cluster(choice, &drawn))
+    return FG_STATUS_OK;
+  double cost = cost_of(choice, drawn.tail, drawn.tip, drawn.width);
+  cost *= choice->stretched > 0.0 ? 1.0 : arrow.bending;
   if (cost < choice->cost) {
     fg__streamline line = chooser->best;
     chooser->best = chooser->tried;
@@ -264,6 +277,7 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
                        .interior = interior,
                        .radius = fg__interior_distance(interior, spine->middle),
                        .cost = HUGE_VAL};
+  choice.stretched = fg__stretched_length(interior, spine);
   fg_status status = prepare(&choice, spine->length);
   if (status == FG_STATUS_OK)
     status = fg__choice_try_starts(&choice, spine);

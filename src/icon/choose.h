@@ -25,6 +25,16 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
                            const fg__spine *spine);
 void fg__chooser_clear(fg__chooser *chooser);
 
+/* How long an arrow becomes that shall reach to the ends of its line: in a territory, or
+ * where the cluster is thin, by the distance from the spine's middle to its boundary; 0:
+ * an arrow that is seen best is enough. */
+double fg__stretched_length(const fg__interior *interior, const fg__spine *spine);
+
+/* Lengthens an arrow to the ends of its line, to that length and the largest turning at
+ * most and with a margin before each end, and slims a fat one. */
+void fg__arrow_stretch(fg__arrow *arrow, const fg__streamline *line, double longest,
+                       double margin);
+
 /* A choice under way. */
 typedef struct fg__choice {
   fg__chooser *chooser;
@@ -33,6 +43,7 @@ typedef struct fg__choice {
   const fg__interior *interior;
   fg__streamline_limits limits;
   double radius;    /* distance from the spine's middle to the boundary */
+  double stretched; /* fg__stretched_length */
   double reach;     /* square of the distance that an arrow stands for */
   int passed_reach; /* in nodes */
   fg__arrow arrow;  /* best so far */

@@ -215,6 +215,27 @@ static void takes_the_longest_way_through_a_stripe(void **state)
   end_bench(&bench);
 }
 
+/* 36.8 long and 0.8 wide. */
+static double thread(double x, double y)
+{
+  return capsule(x, y, -8, 20, 28, 20, 0.4);
+}
+
+static void bends_little(double x, double y, double velocity[2])
+{
+  (void)y;
+  velocity[0] = 1;
+  velocity[1] = 0.01 * sin(0.5 * x);
+}
+
+static void fills_a_thin_cluster(void **state)
+{
+  (void)state;
+  test_bench bench = bench_of(bends_little, thread);
+  assert_true(fg__icon_length(only_icon(&bench)) > 0.95 * 36.8);
+  end_bench(&bench);
+}
+
 static void drops_slivers_and_counts_them(void **state)
 {
   (void)state;
@@ -343,6 +364,7 @@ int main(void)
       cmocka_unit_test(keeps_the_spine),
       cmocka_unit_test(takes_one_branch_or_the_stem),
       cmocka_unit_test(takes_the_longest_way_through_a_stripe),
+      cmocka_unit_test(fills_a_thin_cluster),
       cmocka_unit_test(drops_slivers_and_counts_them),
       cmocka_unit_test(each_cluster_has_one_however_large),
       cmocka_unit_test(stays_inside_the_domain),

@@ -20,10 +20,9 @@ enum { EDGE_BLOCK = 12 };
 
 /* An arrow that does not lie inside is made this much smaller, up to so many times. */
 static const double SMALLER_FLAT = 0.9, SMALLER_SOLID = 0.93;
-/* Of an arrow through a territory, which shall reach far, the length goes by this share.
- */
-static const double TERRITORY_SHORTER = 0.1;
-enum { ATTEMPTS_FLAT = 8, ATTEMPTS_SOLID = 12 };
+/* In 2D the least width over the length: slimmer ones are hairlines in print. */
+static const double SLIMMEST = 0.003;
+enum { ATTEMPTS_FLAT = 12, ATTEMPTS_SOLID = 12 };
 
 static bool edge_is_inside(const fg__interior *interior, const double a[2],
                            const double b[2])
@@ -174,7 +173,10 @@ static fg_status shape(fg_icon *icon, fg_context *context, const fg__interior *i
   bool flat = line->dimension == 2, sound = false;
   double smaller = flat ? SMALLER_FLAT : SMALLER_SOLID;
   fg_status status = FG_STATUS_OK;
-  for (int i = 0; i < (flat ? ATTEMPTS_FLAT : ATTEMPTS_SOLID) && !sound; i++) {
+  const int attempts = flat ? ATTEMPTS_FLAT : ATTEMPTS_SOLID;
+  for (int i = 0; i < attempts && !sound; i++) {
+    if (flat && arrow.width < SLIMMEST * (arrow.tip - arrow.tail))
+      break;
     double(*points)[3] = NULL;
     free_line(&icon->points);
     status = fg__arrow_centerline(&points, &icon->point_count, context, line, &arrow,
@@ -258,11 +260,20 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
   if (status == FG_STATUS_OK)
     status = fg__choose_arrow(&arrow, chooser, context, field, &interior, &spine);
   if (status == FG_STATUS_OK && arrow.width > 0) {
-    out->kind = fg__icon_kind_of(arrow.turning);
-    if (window->territory)
-      status = shape(out, context, &interior, &chooser->best, &arrow, TERRITORY_SHORTER);
-    if (status == FG_STATUS_OK && !out->points)
-      status = shape(out, context, &interior, &chooser->best, &arrow, 1.0);
+    const double stretched = fg__stretched_length(&interior, &spine);
+    fg__arrow whole = arrow;
+    if (stretched > 0.0)
+      fg__arrow_stretch(&whole, &chooser->best, stretched, interior.margin);
+    /* an arrow to the ends of its line stays long as long as it can */
+    const struct {
+      const fg__arrow *arrow;
+      double shorter;
+    } tries[] = {{&whole, 0.1}, {&whole, 0.3}, {&whole, 1.0}, {&arrow, 1.0}};
+    for (int k = stretched > 0.0 ? 0 : 3; k < 4 && !out->points && !status; k++) {
+      out->kind = fg__icon_kind_of(tries[k].arrow->turning);
+      status = shape(out, context, &interior, &chooser->best, tries[k].arrow,
+                     tries[k].shorter);
+    }
   }
   if (status == FG_STATUS_OK && out->points)
     status = finish(out, context, field, chooser, &interior, &spine);
