@@ -75,6 +75,8 @@ typedef struct fg_step {
   double tau;           /* size of this step */
   double energy;        /* E(u), in units of the longest side; like t and tau it refers
                            to the first mesh (fg_evolution_coarsen) */
+  double chemical_energy, gradient_energy; /* its parts: of the double well Psi(u), and
+                           of the interfaces, gamma / 2 (grad u) . A grad u */
   double mass;          /* integral of u over the domain, in units of (longest side)^2,
                            in 3D ^3 */
   double area_fraction; /* share of the domain where u > 0 */
