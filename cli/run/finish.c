@@ -131,8 +131,7 @@ static void report_times(const cli_run *run)
   for (int k = 0; k < count; ++k)
     empty += drawing_result(run->drawing, k)->icons == 0;
   if (empty)
-    complain("%s: %d of %d scales show the density only: they have no cluster that is "
-             "large enough for an arrow",
+    complain("%s: %d of %d scales have no arrows: no cluster is large enough for one",
              operand, empty, count);
   if (run->facts.ended == FG_RUN_STATIONARY)
     complain("%s: the pattern came to rest at t = %.3g: it stands for all times from there "
