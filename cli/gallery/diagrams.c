@@ -39,11 +39,10 @@ static const double first_time = 1e-5, last_time = 3e-2;
 
 static fg_status evolve(energies *out, fg_context *context)
 {
-  const fg_evolution_options options = {
-      .mesh = FG_MESH_UNIFORM,
-      .energy = FG_ENERGY_ISOTROPIC,
-      .noise = 0.02,
-      .threads = 1}; /* figures that follow fork */
+  const fg_evolution_options options = {.mesh = FG_MESH_UNIFORM,
+                                        .energy = FG_ENERGY_ISOTROPIC,
+                                        .noise = 0.02,
+                                        .threads = 1}; /* figures that follow fork */
   fg_field *field = NULL;
   fg_evolution *evolution = NULL;
   fg_status status = fg_field_read(&field, context, "synth:vortex3", NULL);
@@ -91,15 +90,14 @@ static void draw_energies(FILE *svg, const energies *e)
     size_t place;
     double x, y;
     const char *colour, *words;
-  } curves[] = {
-      {offsetof(fg_step, energy), 1000.0, 46.0, "#999999", "E"},
-      {offsetof(fg_step, chemical_energy), 850.0, 78.0, "#8a1c4a",
-       "chemical: \xE2\x88\xAB\xCE\xA8(u)"},
-      {offsetof(fg_step, gradient_energy), 850.0, 312.0, "#1c5a8a",
-       "gradient: \xE2\x88\xAB\xC2\xBD\xCE\xB3|\xE2\x88\x87u|\xC2\xB2"}};
+  } curves[] = {{offsetof(fg_step, energy), 1000.0, 46.0, "#999999", "E"},
+                {offsetof(fg_step, chemical_energy), 850.0, 78.0, "#8a1c4a",
+                 "chemical: \xE2\x88\xAB\xCE\xA8(u)"},
+                {offsetof(fg_step, gradient_energy), 850.0, 312.0, "#1c5a8a",
+                 "gradient: \xE2\x88\xAB\xC2\xBD\xCE\xB3|\xE2\x88\x87u|\xC2\xB2"}};
   static const char *const powers[] = {"\xE2\x81\xBB\xE2\x81\xB5",
-                                       "\xE2\x81\xBB\xE2\x81\xB4",
-                                       "\xE2\x81\xBB\xC2\xB3", "\xE2\x81\xBB\xC2\xB2"};
+                                       "\xE2\x81\xBB\xE2\x81\xB4", "\xE2\x81\xBB\xC2\xB3",
+                                       "\xE2\x81\xBB\xC2\xB2"};
   line(svg, p.left, p.base, p.left + p.width + 20.0, p.base, "stroke-width=\"1\"");
   line(svg, p.left, p.base, p.left, 30.0, "stroke-width=\"1\"");
   for (int n = 0; n < 4; ++n) {

@@ -41,10 +41,11 @@ static bool check_placement(const run_settings *settings, const cli_command *com
                       : settings->tolerance > 0.0 ? "tolerance"
                                                   : NULL;
   if (settings->times.count && other)
-    return usage_error(command,
-                       "--%s and --times: say one; --times draws an arrow in each cluster, "
-                       "however many they are",
-                       other);
+    return usage_error(
+        command,
+        "--%s and --times: say one; --times draws an arrow in each cluster, "
+        "however many they are",
+        other);
   if (settings->tolerance > 0.0 && (settings->arrows.count || settings->clusters.count))
     return usage_error(
         command, "--tolerance %g: finds the number of arrows; not with --%s",

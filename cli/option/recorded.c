@@ -59,8 +59,8 @@ static void print_times(char *text, const time_list *list)
   size_t used = 0;
   for (int k = 0; k < list->count && used < VALUE_BYTES; ++k) {
     print_number(number, list->time[k]);
-    used += (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%s", k ? "," : "",
-                             number);
+    used +=
+        (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%s", k ? "," : "", number);
   }
 }
 

@@ -53,7 +53,9 @@ fg_run_options settings_run(const run_settings *settings)
   bool placed = settings_place(settings), timed = settings->times.count > 0;
   const number_list *numbers = placed ? &settings->arrows : &settings->clusters;
   return (fg_run_options){
-      .kind = timed ? FG_RUN_TIMES : placed ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
+      .kind = timed    ? FG_RUN_TIMES
+              : placed ? FG_RUN_ARROWS
+                       : FG_RUN_CLUSTERS,
       .numbers = numbers->number,
       .times = settings->times.time,
       .count = timed ? settings->times.count : numbers->count,

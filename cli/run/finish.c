@@ -134,9 +134,10 @@ static void report_times(const cli_run *run)
     complain("%s: %d of %d scales have no arrows: no cluster is large enough for one",
              operand, empty, count);
   if (run->facts.ended == FG_RUN_STATIONARY)
-    complain("%s: the pattern came to rest at t = %.3g: it stands for all times from there "
-             "to %g",
-             operand, run->step.time, times->time[times->count - 1]);
+    complain(
+        "%s: the pattern came to rest at t = %.3g: it stands for all times from there "
+        "to %g",
+        operand, run->step.time, times->time[times->count - 1]);
 }
 
 /* Prints why a run ended early, or has fewer scales than requested. */

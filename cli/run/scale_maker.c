@@ -141,9 +141,9 @@ static fg_status write_pictures(scale_maker *maker, int index,
     options.key_width = &key_width;
   picture_settings picture = maker->settings->picture;
   show_density(&picture, &options, maker->settings, icons);
-  fg_status status = background_choose(
-      &options, &maker->background, maker->context, &picture,
-      maker->settings->work.threads, maker->field, snapshot->density, icons);
+  fg_status status = background_choose(&options, &maker->background, maker->context,
+                                       &picture, maker->settings->work.threads,
+                                       maker->field, snapshot->density, icons);
   for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
     if (!(formats & (1U << kind)))
       continue;

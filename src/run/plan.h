@@ -24,7 +24,8 @@ void fg__plan_start_timed(fg__plan *plan, const double *times, int count);
 
 /* Says how many wanted numbers the state with `clusters` clusters is the first at or
  * below; 0: it is no scale. One state is one scale, however many numbers it passes at
- * once. `clusters` 0 means that nucleation still goes on, which matters to numbers only. */
+ * once. `clusters` 0 means that nucleation still goes on, which matters to numbers only.
+ */
 int fg__plan_reach(fg__plan *plan, const fg_step *step);
 
 bool fg__plan_done(const fg__plan *plan);

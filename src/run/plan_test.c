@@ -15,8 +15,7 @@ static int reach(fg__plan *plan, int clusters)
 
 static double share(const fg__plan *plan, int first, int now)
 {
-  return fg__plan_share(plan, &(fg_step){.clusters = first},
-                        &(fg_step){.clusters = now});
+  return fg__plan_share(plan, &(fg_step){.clusters = first}, &(fg_step){.clusters = now});
 }
 
 static void a_list_is_followed(void **state)

@@ -42,8 +42,8 @@ static fg_status check(fg_context *context, const fg_run_options *o)
   if (o->kind != FG_RUN_ARROWS && o->kind != FG_RUN_CLUSTERS && o->kind != FG_RUN_TIMES)
     return fg__fail(context, FG_STATUS_ARGUMENT, "scales: there is no kind %d",
                     (int)o->kind);
-  fg_status status = o->kind == FG_RUN_TIMES ? check_times(context, o)
-                                             : check_numbers(context, o);
+  fg_status status =
+      o->kind == FG_RUN_TIMES ? check_times(context, o) : check_numbers(context, o);
   if (status)
     return status;
   if (o->kind == FG_RUN_ARROWS && o->count > 0 && o->numbers[0] > FG__MOST_ARROWS)
@@ -176,8 +176,8 @@ bool fg_run_take(fg_run_scale *out, fg_run *run)
   return true;
 }
 
-/* The state is one more scale of a run that can go on; a pattern that no longer changes is
- * that of all times to come. */
+/* The state is one more scale of a run that can go on; a pattern that no longer changes
+ * is that of all times to come. */
 static void close_timed(fg_run *s, bool settled)
 {
   if (settled) {

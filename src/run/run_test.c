@@ -1,8 +1,8 @@
 /* A run of scales: what it gives is what its parts give, and it always ends. */
 #include <math.h>
 
-#include "run/run_test.h"
 #include "icon/icons.h"
+#include "run/run_test.h"
 
 /* Clusters: each scale is the first state at or below its number, with the icons of its
  * density. */
@@ -81,8 +81,7 @@ static void times_are_those_of_the_evolution(void **state)
     assert_true(before < times[next]);
     assert_null(scale->wanted);
     assert_int_equal(scale->wanted_count, reached[k]);
-    assert_memory_equal(scale->times, times + next,
-                        (size_t)reached[k] * sizeof *times);
+    assert_memory_equal(scale->times, times + next, (size_t)reached[k] * sizeof *times);
     assert_int_equal(fg_icons_count(scale->icons) > 0, k > 1);
   }
   assert_true(step.clusters > 0);
