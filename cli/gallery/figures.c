@@ -10,6 +10,10 @@ const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
   "texture synth:vortex3 -o " picture " --kind clusters --nodes 257 --pixels "           \
   "768 " options
 
+/* The original model, from weak noise on. */
+#define SEPARATION(picture, time)                                                        \
+  CLUSTERS(picture, "--energy isotropic --noise 0.02 --max-time " time)
+
 /* The same clusters at the same time with another anisotropy. */
 #define ANISOTROPY(picture, a)                                                           \
   CLUSTERS(picture, "--gamma 2e-4 --max-time 0.02 --anisotropy " a)
@@ -28,17 +32,20 @@ const gallery_figure gallery_figures[] = {
     {.number = 2,
      .title = "Isotropic Cahn-Hilliard evolution",
      .paper = "The original model, without a field, at three times.",
-     .differs = "The paper names no times.",
-     .command = {CLUSTERS("fig-02-a.png", "--energy isotropic --clusters 150"),
-                 CLUSTERS("fig-02-b.png", "--energy isotropic --clusters 60"),
-                 CLUSTERS("fig-02-c.png", "--energy isotropic --clusters 20")},
-     .picture = {{"fig-02-a.png", "150 clusters, still merging"},
-                 {"fig-02-b.png", "60 clusters: balls"},
-                 {"fig-02-c.png", "20 clusters: fewer and larger"}}},
+     .differs = "The paper names no times. The first picture is the noise of amplitude "
+                "0.02 from which the phases separate.",
+     .command = {SEPARATION("fig-02-a.png", "1e-6"), SEPARATION("fig-02-b.png", "5.5e-4"),
+                 SEPARATION("fig-02-c.png", "9e-4"), SEPARATION("fig-02-d.png", "3e-2")},
+     .picture = {{"fig-02-a.png", "t = 1e-6: noise"},
+                 {"fig-02-b.png", "t = 6e-4: phases separate"},
+                 {"fig-02-c.png", "t = 9e-4: fine structure"},
+                 {"fig-02-d.png", "t = 0.03: fewer and larger balls"}}},
     {.number = 3,
      .title = "The double well",
      .paper = "The energy of the separation, with its two minima.",
-     .draw = gallery_draw_double_well,
+     .differs = "On the right the energies of Fig. 2's evolution: the chemical energy "
+                "falls fast while the gradient energy rises, then clusters coarsen.",
+     .draw = gallery_draw_energy,
      .picture = {{"fig-03.svg",
                   "\xCE\xA8(u) = (u\xC2\xB2 \xE2\x88\x92 \xCE\xB2\xC2\xB2)\xC2\xB2/2, "
                   "\xCE\xB2 = 1; where it is concave, phases separate"}}},

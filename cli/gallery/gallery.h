@@ -40,8 +40,8 @@ bool gallery_shows(const gallery_figure *figure, int number);
 /* Prints the page with the pictures that exist, of all figures or of the chosen one. */
 void gallery_print_page(FILE *page, const gallery_settings *settings);
 
-/* The double well, and the substeps of the theta-scheme. */
-void gallery_draw_double_well(FILE *svg);
+/* The double well with the energies over time, and the substeps of the theta-scheme. */
+void gallery_draw_energy(FILE *svg);
 void gallery_draw_substeps(FILE *svg);
 
 #endif

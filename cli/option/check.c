@@ -36,6 +36,16 @@ static bool check_placement(const run_settings *settings, const cli_command *com
     return usage_error(command,
                        "--arrows and --clusters: say one; --clusters draws an arrow in "
                        "each cluster, however many they are");
+  const char *other = settings->arrows.count      ? "arrows"
+                      : settings->clusters.count  ? "clusters"
+                      : settings->tolerance > 0.0 ? "tolerance"
+                                                  : NULL;
+  if (settings->times.count && other)
+    return usage_error(
+        command,
+        "--%s and --times: say one; --times draws an arrow in each cluster, "
+        "however many they are",
+        other);
   if (settings->tolerance > 0.0 && (settings->arrows.count || settings->clusters.count))
     return usage_error(
         command, "--tolerance %g: finds the number of arrows; not with --%s",
@@ -50,7 +60,10 @@ static bool check_placement(const run_settings *settings, const cli_command *com
                                            : NULL;
   if (placed && !settings_place(settings))
     return usage_error(command, "--%s: says nothing with --%s: no arrows are placed",
-                       placed, settings->clusters.count ? "clusters" : "no-arrows");
+                       placed,
+                       settings->clusters.count ? "clusters"
+                       : settings->times.count  ? "times"
+                                                : "no-arrows");
   if (settings_place(settings) &&
       (settings->picture.skeletons || settings->picture.centers))
     return usage_error(command, "--%s: of clusters; say how many with --clusters",

@@ -112,6 +112,11 @@ static const option_entry method_entries[] = {
      .help = "instead of --arrows an arrow inside each cluster, as in the paper: numbers "
              "of clusters, descending, as 200,50,12; a scale is the first snapshot at or "
              "below the number"},
+    {"times", 0, "LIST", RUNS, OPTION_TIMES, OWN(run, times),
+     .help =
+         "instead of --clusters the simulated times t of the scales, ascending, as "
+         "3e-4,1e-3,1e-2: a scale is the first snapshot at or after its time, however "
+         "many clusters it has"},
     {"extent", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, extent), .words = extent_words,
      .help = "of --clusters, where an arrow ends: inside its `cluster`, or in its "
              "`territory`, "

@@ -18,7 +18,7 @@ static const char *const no_part[] = {
     "quiet",     "verbose",   "help",       "version",
 };
 
-enum { VALUE_BYTES = 1024 };
+enum { VALUE_BYTES = 2048 };
 
 static bool counts(const option_entry *option)
 {
@@ -51,6 +51,17 @@ static void print_numbers(char *text, const number_list *list)
   for (int k = 0; k < list->count && used < VALUE_BYTES; ++k)
     used += (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%d", k ? "," : "",
                              list->number[k]);
+}
+
+static void print_times(char *text, const time_list *list)
+{
+  char number[VALUE_BYTES];
+  size_t used = 0;
+  for (int k = 0; k < list->count && used < VALUE_BYTES; ++k) {
+    print_number(number, list->time[k]);
+    used +=
+        (size_t)snprintf(text + used, VALUE_BYTES - used, "%s%s", k ? "," : "", number);
+  }
 }
 
 static void print_views(char *text, const picture_settings *settings)
@@ -144,6 +155,9 @@ static void print_value(char text[VALUE_BYTES], const run_settings *settings,
     break;
   case OPTION_NUMBERS:
     print_numbers(text, place);
+    break;
+  case OPTION_TIMES:
+    print_times(text, place);
     break;
   case OPTION_FORMATS:
     print_formats(text, settings->formats);

@@ -50,12 +50,15 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
 
 fg_run_options settings_run(const run_settings *settings)
 {
-  bool placed = settings_place(settings);
+  bool placed = settings_place(settings), timed = settings->times.count > 0;
   const number_list *numbers = placed ? &settings->arrows : &settings->clusters;
   return (fg_run_options){
-      .kind = placed ? FG_RUN_ARROWS : FG_RUN_CLUSTERS,
+      .kind = timed    ? FG_RUN_TIMES
+              : placed ? FG_RUN_ARROWS
+                       : FG_RUN_CLUSTERS,
       .numbers = numbers->number,
-      .count = numbers->count,
+      .times = settings->times.time,
+      .count = timed ? settings->times.count : numbers->count,
       .evolution = settings_evolution(&settings->evolution, &settings->work),
       .placement = settings_placement(settings),
       .max_time = settings->max_time,
@@ -65,7 +68,8 @@ fg_run_options settings_run(const run_settings *settings)
 
 bool settings_place(const run_settings *settings)
 {
-  return settings->clusters.count == 0 && !settings->picture.no_arrows;
+  return settings->clusters.count == 0 && settings->times.count == 0 &&
+         !settings->picture.no_arrows;
 }
 
 fg_placement_options settings_placement(const run_settings *settings)

@@ -19,6 +19,12 @@ typedef struct number_list {
   int count;
 } number_list;
 
+/* Times of scales, ascending. */
+typedef struct time_list {
+  double time[MAX_SCALES];
+  int count;
+} time_list;
+
 /* Operands after the first. */
 typedef struct operand_list {
   char *const *operand;
@@ -84,6 +90,7 @@ typedef struct run_settings {
   picture_settings picture;
   const char *output;           /* DIR */
   number_list arrows, clusters; /* neither: the default numbers of arrows */
+  time_list times;              /* instead of either */
   double tolerance;             /* degrees */
   int start;                    /* of a placement: clusters (0), even */
   int effort;                   /* fg_effort */

@@ -63,6 +63,7 @@ typedef enum option_kind {
   OPTION_FLAG,    /* bool */
   OPTION_CHOICE,  /* int: the value for the word's index in `words` */
   OPTION_NUMBERS, /* number_list */
+  OPTION_TIMES,   /* time_list */
   OPTION_FORMATS, /* unsigned: bits */
   OPTION_PALETTE, /* const char *: a palette's name or #rrggbb */
   OPTION_PLACES,  /* const char *: a time or a level, or several for run */

@@ -135,6 +135,29 @@ static bool set_numbers(void *out, const cli_command *command, const option_entr
   return true;
 }
 
+static bool set_times(void *out, const cli_command *command, const option_entry *option,
+                      const char *text)
+{
+  time_list times = {.count = 0};
+  for (const char *rest = text; rest;) {
+    char item[32];
+    rest = next_item(item, sizeof item, rest);
+    double value, last = times.count ? times.time[times.count - 1] : 0.0;
+    if (!parse_number(&value, item) || !(value > 0.0))
+      return usage_error(command, "--%s %s: '%s' is no time above 0", option->name, text,
+                         item);
+    if (times.count == MAX_SCALES)
+      return usage_error(command, "--%s %s: more than %d times", option->name, text,
+                         MAX_SCALES);
+    if (value <= last)
+      return usage_error(command, "--%s %s: the times must ascend, and %s follows %g",
+                         option->name, text, item, last);
+    times.time[times.count++] = value;
+  }
+  memcpy(out, &times, sizeof times);
+  return true;
+}
+
 static bool set_formats(void *out, const cli_command *command, const option_entry *option,
                         const char *text)
 {
@@ -359,6 +382,8 @@ bool value_set(void *settings, const cli_command *command, const option_entry *o
     return set_choice(out, command, option, text);
   case OPTION_NUMBERS:
     return set_numbers(out, command, option, text);
+  case OPTION_TIMES:
+    return set_times(out, command, option, text);
   case OPTION_FORMATS:
     return set_formats(out, command, option, text);
   case OPTION_PALETTE:

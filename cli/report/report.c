@@ -54,6 +54,8 @@ static void add_parameters(cJSON *root, const run_facts *facts)
     cJSON_AddItemToObject(
         object, "clusters",
         cJSON_CreateIntArray(settings->clusters.number, settings->clusters.count));
+  if (settings->times.count)
+    json_add_numbers(object, "times", settings->times.time, settings->times.count);
   if (settings->max_time > 0.0)
     cJSON_AddNumberToObject(object, "max_time", settings->max_time);
   if (settings->max_steps)

@@ -11,8 +11,9 @@
 /* Rows are buffered up to this size. */
 enum { ENOUGH_BYTES = 1 << 16, ROW_BYTES = 512 };
 
-static const char heading[] =
-    "step,t,tau,energy,mass,area_fraction,clusters,cycles,cells,seconds\n";
+static const char heading[] = "step,t,tau,energy,chemical_energy,gradient_energy,mass,"
+                              "area_fraction,clusters,cycles,"
+                              "cells,seconds\n";
 
 static bool append(cli_table *table, const char *text, size_t bytes)
 {
@@ -132,9 +133,11 @@ int table_add(cli_table *table, const fg_step *step)
 {
   char row[ROW_BYTES];
   int bytes = snprintf(
-      row, sizeof row, "%" PRId64 ",%.9g,%.9g,%.12g,%.12g,%.6g,%d,%d,%" PRId64 ",%.6f\n",
-      step->step, step->time, step->tau, step->energy, step->mass, step->area_fraction,
-      step->clusters, step->cycles, step->cells, step->seconds);
+      row, sizeof row,
+      "%" PRId64 ",%.9g,%.9g,%.12g,%.12g,%.12g,%.12g,%.6g,%d,%d,%" PRId64 ",%.6f\n",
+      step->step, step->time, step->tau, step->energy, step->chemical_energy,
+      step->gradient_energy, step->mass, step->area_fraction, step->clusters,
+      step->cycles, step->cells, step->seconds);
   if (!append(table, row, (size_t)bytes))
     return EXIT_FAILED;
   if (table->used >= ENOUGH_BYTES)

@@ -97,6 +97,7 @@ static void add_record(cJSON *root, const fg_run *scales)
   add_whole(root, "next", record.next);
   add_whole(root, "taken", record.taken);
   add_whole(root, "last_scale_clusters", record.last_clusters);
+  add_whole(root, "last_scale_step", record.last_step);
   add_whole(root, "first_step", record.first.step);
   add_whole(root, "first_clusters", record.first.clusters);
   add_exact(root, "first_time", record.first.time);
@@ -298,6 +299,7 @@ static void restore_record(fg_run_record *out, const cJSON *note)
   *out = (fg_run_record){.next = (int)whole_of(note, "next"),
                          .taken = (int)whole_of(note, "taken"),
                          .last_clusters = (int)whole_of(note, "last_scale_clusters"),
+                         .last_step = whole_of(note, "last_scale_step"),
                          .first = {.step = whole_of(note, "first_step"),
                                    .clusters = (int)whole_of(note, "first_clusters"),
                                    .time = real_of(note, "first_time"),

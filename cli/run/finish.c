@@ -97,9 +97,12 @@ static void print_summary(const cli_run *run)
     char *path = join_path(run->settings->output, name);
     if (settings_place(run->settings))
       printf("%4d arrows  %s\n", result->icons, path ? path : name);
-    else
+    else {
+      if (run->settings->times.count)
+        printf("t = %-9.3g ", result->time);
       printf("%4d clusters %4d icons%s  %s\n", result->clusters, result->icons,
              format_dropped(aside, result->dropped), path ? path : name);
+    }
     free(path);
   }
 }
@@ -119,11 +122,31 @@ static void warn_of_few_clusters(const cli_run *run)
   advise("More --nodes begin with more clusters.");
 }
 
+/* Says which times have no arrows, and which are later than the last change. */
+static void report_times(const cli_run *run)
+{
+  const time_list *times = &run->settings->times;
+  const char *operand = input_name(run->settings->reading.input);
+  int empty = 0, count = drawing_count(run->drawing);
+  for (int k = 0; k < count; ++k)
+    empty += drawing_result(run->drawing, k)->icons == 0;
+  if (empty)
+    complain("%s: %d of %d scales have no arrows: no cluster is large enough for one",
+             operand, empty, count);
+  if (run->facts.ended == FG_RUN_STATIONARY)
+    complain(
+        "%s: the pattern came to rest at t = %.3g: it stands for all times from there "
+        "to %g",
+        operand, run->step.time, times->time[times->count - 1]);
+}
+
 /* Prints why a run ended early, or has fewer scales than requested. */
 static int report_outcome(const cli_run *run)
 {
   const run_settings *settings = run->settings;
   const int *wanted = run->record.wanted, next = run->record.next;
+  if (settings->times.count && !settings->picture.no_arrows)
+    report_times(run);
   if (run->facts.ended == FG_RUN_STATIONARY && next < run->record.count)
     complain("%s: no scale of %d or fewer clusters: the pattern came to rest with %d",
              input_name(settings->reading.input), wanted[next], run->step.clusters);

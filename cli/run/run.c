@@ -145,7 +145,8 @@ static int draw_scale(cli_run *run, const fg_run_scale *scale)
   }
   /* a failed drawing is reported at the end of the run; scales of the last state are
    * drawn after the evolution is freed */
-  bool added = drawing_add(run->drawing, &snapshot, scale->wanted, scale->wanted_count) &&
+  bool added = drawing_add(run->drawing, &snapshot, scale->wanted,
+                           scale->wanted ? scale->wanted_count : 0) &&
                (fg_run_ended(run->scales) || drawing_keep_up(run->drawing));
   return ranks_agree(added ? EXIT_DONE : EXIT_FAILED);
 }
@@ -197,7 +198,7 @@ static int evolve(cli_run *run)
   run->facts.ended = fg_run_ended(run->scales);
   bool interrupted = run->facts.ended == FG_RUN_STOPPED;
   if (!code && run->step.step && finish_can_go_on(run) &&
-      (interrupted || run->step.clusters))
+      (interrupted || run->step.clusters || run->settings->times.count))
     code = checkpoint_save(run);
   if (!code) {
     fg_run_close(run->scales);

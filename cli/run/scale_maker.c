@@ -110,6 +110,17 @@ static fg_status write_density(scale_maker *maker, int index, const fg_density *
   return status;
 }
 
+/* A scale of a time at which no cluster has an arrow shows the density itself. */
+static void show_density(picture_settings *picture, fg_picture_options *options,
+                         const run_settings *settings, const fg_icons *icons)
+{
+  static const double full = 1e-3; /* 0 is the default fade */
+  if (!settings->times.count || fg_icons_count(icons) > 0 || picture->background)
+    return;
+  picture->background = FG_TEXTURE_CLUSTERS + 1;
+  options->background_fade = full;
+}
+
 /* regions: of placed arrows, shown instead of clusters; NULL: none. */
 static fg_status write_pictures(scale_maker *maker, int index,
                                 const scale_snapshot *snapshot, const fg_icons *icons,
@@ -128,9 +139,11 @@ static fg_status write_pictures(scale_maker *maker, int index,
   double key_width = 0.0;
   if (index == 0 && !maker->settings->quiet)
     options.key_width = &key_width;
-  fg_status status = background_choose(
-      &options, &maker->background, maker->context, &maker->settings->picture,
-      maker->settings->work.threads, maker->field, snapshot->density, icons);
+  picture_settings picture = maker->settings->picture;
+  show_density(&picture, &options, maker->settings, icons);
+  fg_status status = background_choose(&options, &maker->background, maker->context,
+                                       &picture, maker->settings->work.threads,
+                                       maker->field, snapshot->density, icons);
   for (int kind = 0; !status && kind < FORMAT_KINDS; ++kind) {
     if (!(formats & (1U << kind)))
       continue;
@@ -191,7 +204,7 @@ static fg_status draw_flat(scale_maker *maker, int index, const scale_snapshot *
   return status;
 }
 
-/* From the finest scale. */
+/* From the finest scale that has arrows. */
 static fg_status choose_look(scale_maker *maker, const fg_icons *icons)
 {
   common_look *look = &maker->look;
@@ -218,14 +231,14 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
     status = place_icons(maker, index, result->wanted[0], snapshot);
   else if (!snapshot->icons)
     status = make_icons(maker, snapshot);
-  if (!status && !settings_place(maker->settings))
+  if (!status && !settings_place(maker->settings) && fg_icons_count(snapshot->icons) > 0)
     status = placing_score(maker->context, maker->field, snapshot->icons);
   const fg_icons *icons = snapshot->icons;
   if (!status)
     status = write_icons(maker, index, icons);
   double between = clock_seconds();
   maker->icon_seconds += between - start;
-  if (!status && index == 0)
+  if (!status && !(maker->look.speeds[1] > 0.0)) /* not chosen yet */
     status = choose_look(maker, icons);
   if (!status)
     status = scales_are_solid(maker->field) ? draw_solids(maker, index, snapshot, icons)

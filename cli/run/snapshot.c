@@ -13,7 +13,7 @@ static bool needs_all(const cli_run *run)
     return true;
   if (scales_are_solid(run->field))
     return settings->picture.surfaces || settings_place(settings);
-  return settings_place(settings) || settings->picture.tint ||
+  return settings_place(settings) || settings->picture.tint || settings->times.count ||
          settings->picture.background;
 }
 

@@ -70,23 +70,25 @@ typedef struct fg_evolution_options {
 } fg_evolution_options;
 
 typedef struct fg_step {
-  int64_t step;         /* accepted steps so far */
-  double time;          /* t, in units of (longest side)^2 */
-  double tau;           /* size of this step */
-  double energy;        /* E(u), in units of the longest side; like t and tau it refers
-                           to the first mesh (fg_evolution_coarsen) */
-  double mass;          /* integral of u over the domain, in units of (longest side)^2,
-                           in 3D ^3 */
-  double area_fraction; /* share of the domain where u > 0 */
-  int clusters;         /* components of {u > 0} above the size of debris; 0 while the
-                           covered area is below 0.8 of the coverage */
-  int cycles;           /* multigrid cycles spent on this step, rejects included */
-  int rejected;         /* attempts rejected before this step was accepted */
-  int64_t cells;        /* active cells of the mesh */
-  int coarsenings;      /* of the mesh, since the evolution began */
-  double increment;     /* rms of the change of u in this step */
-  double seconds;       /* wall time since the evolution was created */
-  bool stationary;      /* the pattern no longer changes */
+  int64_t step;           /* accepted steps so far */
+  double time;            /* t, in units of (longest side)^2 */
+  double tau;             /* size of this step */
+  double energy;          /* E(u), in units of the longest side; like t and tau it refers
+                             to the first mesh (fg_evolution_coarsen) */
+  double chemical_energy; /* its part Psi(u), of the double well */
+  double gradient_energy; /* its part gamma / 2 grad u . A grad u, of interfaces */
+  double mass;            /* integral of u over the domain, in units of (longest side)^2,
+                             in 3D ^3 */
+  double area_fraction;   /* share of the domain where u > 0 */
+  int clusters;           /* components of {u > 0} above the size of debris; 0 while the
+                             covered area is below 0.8 of the coverage */
+  int cycles;             /* multigrid cycles spent on this step, rejects included */
+  int rejected;           /* attempts rejected before this step was accepted */
+  int64_t cells;          /* active cells of the mesh */
+  int coarsenings;        /* of the mesh, since the evolution began */
+  double increment;       /* rms of the change of u in this step */
+  double seconds;         /* wall time since the evolution was created */
+  bool stationary;        /* the pattern no longer changes */
 } fg_step;
 
 /* Builds mesh, tensor and initial density. nodes is rounded up so that the mesh can be

@@ -11,18 +11,21 @@ extern "C" {
 
 typedef enum fg_run_kind {
   FG_RUN_ARROWS = 0, /* placed: exactly so many arrows */
-  FG_RUN_CLUSTERS    /* an arrow in each cluster, at most so many clusters */
+  FG_RUN_CLUSTERS,   /* an arrow in each cluster, at most so many clusters */
+  FG_RUN_TIMES       /* the same at given times, however many clusters there are */
 } fg_run_kind;
 
 enum { FG_MOST_SCALES = 64 };
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_run_options {
-  fg_run_kind kind;   /* [arrows] */
-  const int *numbers; /* of arrows or clusters, descending [arrows: 200, 100, 50, 25, 12,
-                         in 3D 60, 25, 12; clusters: as many as can first be counted,
-                         then halved down to 12] */
-  int count;          /* of `numbers`, FG_MOST_SCALES at most */
+  fg_run_kind kind;    /* [arrows] */
+  const int *numbers;  /* of arrows or clusters, descending [arrows: 200, 100, 50, 25, 12,
+                          in 3D 60, 25, 12; clusters: as many as can first be counted,
+                          then halved down to 12] */
+  const double *times; /* t of FG_RUN_TIMES, ascending: a scale is the first state at or
+                          after its t */
+  int count;           /* of `numbers` or `times`, FG_MOST_SCALES at most */
   fg_evolution_options evolution; /* [nodes of arrows: what the first number needs] */
   fg_placement_options placement; /* of arrows; threads [as of the evolution] */
   bool even_start; /* the first scale's arrows start from evenly distributed points [from
@@ -46,12 +49,13 @@ typedef enum fg_run_outcome {
 
 /* One scale; all is borrowed until the next call for the same run. */
 typedef struct fg_run_scale {
-  int index;         /* from 0, the finest */
-  const int *wanted; /* the numbers that it is the scale of: clusters can fall below
-                        several at once; none where the run ended before its last
-                        number */
-  int wanted_count;
-  fg_step step;              /* the state of the evolution */
+  int index;           /* from 0, the finest */
+  const int *wanted;   /* the numbers that it is the scale of: clusters can fall below
+                          several at once; none where the run ended before its last
+                          number */
+  const double *times; /* the same of FG_RUN_TIMES, which has no numbers */
+  int wanted_count;    /* of either */
+  fg_step step;        /* the state of the evolution */
   const fg_density *density; /* of that state, which ranks share; of placed arrows all of
                                 it on rank 0, and NULL on others */
   const fg_icons *icons;     /* NULL on ranks other than 0 */
@@ -70,8 +74,8 @@ FG_API void fg_run_destroy(fg_run *run);
 
 /* Goes on to the next scale and makes its density and icons; *out is NULL after the last.
  * A run always ends: one whose pattern comes to rest early gives what it has, arrows as
- * many as are wanted all the same. Collective. NO_CONVERGENCE, ARGUMENT (so many arrows
- * have no room), MEMORY, STOPPED, MPI. */
+ * many as are wanted all the same, and at later times that pattern. Collective.
+ * NO_CONVERGENCE, ARGUMENT (so many arrows have no room), MEMORY, STOPPED, MPI. */
 FG_API fg_status fg_run_next(const fg_run_scale **out, fg_run *run);
 
 /* Why the run has ended, or that it has not. */
@@ -89,12 +93,13 @@ FG_API fg_status fg_run_step(fg_step *step, fg_run *run);
 FG_API bool fg_run_take(fg_run_scale *out, fg_run *run);
 
 /* Ends a run: the scales that were not reached become scales of its last state. Of placed
- * arrows all of them, unless the run was stopped; of clusters one, with as many as there
- * are. */
+ * arrows all of them, unless the run was stopped; of clusters or times one, with as many
+ * clusters as there are. */
 FG_API void fg_run_close(fg_run *run);
 
-/* The numbers wanted, descending, borrowed; the first *next of them are reached. Default
- * numbers of clusters are known once clusters are counted. Returns how many. */
+/* The numbers wanted, descending, borrowed, zeros of FG_RUN_TIMES; the first *next of
+ * them are reached. Default numbers of clusters are known once clusters are counted.
+ * Returns how many. */
 FG_API int fg_run_wanted(const int **wanted, int *next, const fg_run *run);
 
 /* Share of the way to the last scale, 0 to 1, and an estimate of the seconds left,
@@ -115,10 +120,11 @@ FG_API fg_status fg_run_place(fg_icons **out, fg_context *context,
 
 /* The state of a run beside its evolution's, to be stored with a checkpoint. */
 typedef struct fg_run_record {
-  int wanted[FG_MOST_SCALES], count, next;
-  int taken;         /* scales */
-  int last_clusters; /* of the last one */
-  fg_step first;     /* the first with a number of clusters; step 0: none yet */
+  int wanted[FG_MOST_SCALES], count, next; /* of times `wanted` is not used */
+  int taken;                               /* scales */
+  int last_clusters;                       /* of the last one */
+  int64_t last_step;                       /* likewise */
+  fg_step first; /* the first with a number of clusters; step 0: none yet */
 } fg_run_record;
 
 /* Fills in the record of a run's present state. */

@@ -301,6 +301,8 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
                    .time = unit * s->time,
                    .tau = unit * s->last_tau,
                    .energy = s->energy / unit,
+                   .chemical_energy = s->chemical / unit,
+                   .gradient_energy = (s->energy - s->chemical) / unit,
                    .mass = s->mass,
                    .area_fraction = e->area_fraction,
                    .clusters = e->clusters,

@@ -57,7 +57,11 @@ static parts parts_of(const subject *s, double energy)
 static parts step(const subject *s, fg_step *now)
 {
   assert_int_equal(fg_evolution_step(s->evolution, now), FG_STATUS_OK);
-  return parts_of(s, now->energy);
+  parts measured = parts_of(s, now->energy);
+  assert_true(fabs(now->chemical_energy - measured.chemical) <= 1e-5 * now->energy);
+  assert_true(fabs(now->chemical_energy + now->gradient_energy - now->energy) <=
+              1e-14 * now->energy);
+  return measured;
 }
 
 /* Once what does not grow of the noise is smoothed away, the chemical energy is exchanged

@@ -104,6 +104,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   }
   fg__sums sums = fg__pass_evaluate(m, out->current, fg__multigrid_w(m));
   out->energy = out->cell_volume * sums.energy;
+  out->chemical = out->cell_volume * sums.chemical;
   out->mass = out->cell_volume * sums.u;
   return FG_STATUS_OK;
 }
@@ -192,7 +193,7 @@ static fg__changes step_by_theta(fg__stepper *s, double tau)
 }
 
 typedef struct outcome {
-  double increment, correction, energy, mean;
+  double increment, correction, energy, chemical, mean;
   double
       persistence; /* the rate of change projected on the last step's, as a share of it */
   bool accepted;
@@ -222,6 +223,7 @@ static outcome judge(fg__stepper *s, double tau, fg__changes sums)
         sums.product * s->last_tau / (tau * s->increment * s->increment * s->total_mass);
   fg__sums shifted = fg__pass_evaluate(m, fg__multigrid_u(m), s->first_iterate);
   result.energy = s->cell_volume * shifted.energy;
+  result.chemical = s->cell_volume * shifted.chemical;
   result.mean = shifted.u / s->total_mass;
   result.at_rest = result.increment < rest_increment && result.energy >= s->energy &&
                    result.energy - s->energy <= energy_rounding * s->energy;
@@ -257,6 +259,7 @@ static void keep(fg__stepper *s, double tau, const outcome *result)
   s->current = fg__multigrid_u(m);
   fg__multigrid_use(m, oldest);
   s->energy = result->energy;
+  s->chemical = result->chemical;
   s->mass = s->cell_volume * s->total_mass * result->mean;
   s->increment = result->increment;
   s->persistence = s->accepted > 0 ? fmin(fmax(result->persistence, 0.0), 1.0) : 1.0;

@@ -25,6 +25,7 @@ typedef struct fg__stepper {
   double last_tau;     /* the last accepted one */
   double tau_limit;    /* lowered by a rejected attempt, relaxed by accepted steps */
   double energy, mass; /* of the current u, units of the longest side */
+  double chemical;     /* the double well's part of the energy */
   double increment;    /* rms of the last step's change */
   double persistence;  /* share of the last change that the predictor continues */
   bool history;        /* `previous` is the density one step before `current` */

@@ -29,6 +29,14 @@ void fg__plan_start_placed(fg__plan *plan, const int *list, int count, int dimen
   plan->placed = true;
 }
 
+void fg__plan_start_timed(fg__plan *plan, const double *times, int count)
+{
+  memset(plan, 0, sizeof *plan);
+  plan->timed = true;
+  plan->count = count;
+  memcpy(plan->times, times, (size_t)count * sizeof *times);
+}
+
 /* The first number seen, then those of 12 * 2^k that differ from it by more than half a
  * halving: two scales closer than that look alike. */
 static void fill_default(fg__plan *plan, int first)
@@ -43,14 +51,19 @@ static void fill_default(fg__plan *plan, int first)
     plan->wanted[plan->count++] = wanted;
 }
 
-int fg__plan_reach(fg__plan *plan, int clusters)
+static bool reaches(const fg__plan *plan, const fg_step *step, int n)
 {
-  if (clusters < 1)
+  return plan->timed ? step->time >= plan->times[n] : step->clusters <= plan->wanted[n];
+}
+
+int fg__plan_reach(fg__plan *plan, const fg_step *step)
+{
+  if (step->clusters < 1 && !plan->timed)
     return 0;
   if (!plan->count)
-    fill_default(plan, clusters);
+    fill_default(plan, step->clusters);
   int reached = 0;
-  while (plan->next < plan->count && clusters <= plan->wanted[plan->next]) {
+  while (plan->next < plan->count && reaches(plan, step, plan->next)) {
     ++plan->next;
     ++reached;
   }
@@ -62,14 +75,21 @@ bool fg__plan_done(const fg__plan *plan)
   return plan->count && plan->next == plan->count;
 }
 
-double fg__plan_share(const fg__plan *plan, int first, int clusters)
+/* Logarithm of what is left from a state to the plan's last. */
+static double way_left(const fg__plan *plan, const fg_step *step)
 {
-  if (!plan->count || clusters < 1 || first < 1)
+  int last = plan->count - 1;
+  double ratio = plan->timed ? plan->times[last] / step->time
+                             : (double)step->clusters / plan->wanted[last];
+  return fmax(0.0, log(ratio));
+}
+
+double fg__plan_share(const fg__plan *plan, const fg_step *first, const fg_step *now)
+{
+  if (!plan->count || now->clusters < 1 || first->clusters < 1)
     return 0.0;
-  int last = plan->wanted[plan->count - 1];
-  if (clusters <= last || first <= last)
-    return 1.0;
-  return fmax(0.0, log((double)first / clusters) / log((double)first / last));
+  double left = way_left(plan, now), way = way_left(plan, first);
+  return left > 0.0 && way > 0.0 ? fmax(0.0, 1.0 - left / way) : 1.0;
 }
 
 double fg__plan_seconds_left(const fg__plan *plan, const fg_step *now,
@@ -78,12 +98,9 @@ double fg__plan_seconds_left(const fg__plan *plan, const fg_step *now,
   if (!plan->count || now->clusters < 1 || !(now->time > first->time) ||
       !(now->seconds > first->seconds))
     return -1.0;
-  int last = plan->wanted[plan->count - 1];
-  if (now->clusters <= last)
-    return 0.0;
   /* the step control spends about the same work on every factor of t */
   double seconds_per_log = (now->seconds - first->seconds) / log(now->time / first->time);
-  return log((double)now->clusters / last) / coarsening_rate * seconds_per_log;
+  return way_left(plan, now) / (plan->timed ? 1.0 : coarsening_rate) * seconds_per_log;
 }
 
 /* In 2D some hundred nodes in each cluster where clusters cover 0.3 of the domain, in 3D

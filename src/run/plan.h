@@ -4,11 +4,14 @@
 
 #include "flowgrain/run.h"
 
-/* Numbers at which to take a scale, descending, and how many are reached. */
+/* Numbers at which to take a scale, descending, or times, ascending, and how many are
+ * reached. */
 typedef struct fg__plan {
   int wanted[FG_MOST_SCALES];
+  double times[FG_MOST_SCALES];
   int count;
   int next;    /* wanted[next] has not been reached; count: all have */
+  bool timed;  /* `times` are wanted */
   bool placed; /* these are numbers of arrows: each is a scale of its own */
 } fg__plan;
 
@@ -17,16 +20,20 @@ typedef struct fg__plan {
 void fg__plan_start(fg__plan *plan, const int *list, int count);
 void fg__plan_start_placed(fg__plan *plan, const int *list, int count, int dimension);
 
+void fg__plan_start_timed(fg__plan *plan, const double *times, int count);
+
 /* Says how many wanted numbers the state with `clusters` clusters is the first at or
  * below; 0: it is no scale. One state is one scale, however many numbers it passes at
- * once. `clusters` 0 means that nucleation still goes on. */
-int fg__plan_reach(fg__plan *plan, int clusters);
+ * once. `clusters` 0 means that nucleation still goes on, which matters to numbers only.
+ */
+int fg__plan_reach(fg__plan *plan, const fg_step *step);
 
 bool fg__plan_done(const fg__plan *plan);
 
-/* Share of the way from `first` clusters, the first number seen, to the plan's last: the
- * logarithm of the number falls about evenly. 0 when nothing can be said yet. */
-double fg__plan_share(const fg__plan *plan, int first, int clusters);
+/* Share of the way from the first state with a number of clusters to the plan's last: the
+ * logarithm of the number falls about evenly; of times that of the time. 0 when nothing
+ * can be said yet. */
+double fg__plan_share(const fg__plan *plan, const fg_step *first, const fg_step *now);
 
 /* Seconds left, by N ~ t^-0.43, from a state and the first with a number of clusters;
  * negative when nothing can be said yet. */

@@ -8,21 +8,31 @@
 
 #include "run/plan.h"
 
+static int reach(fg__plan *plan, int clusters)
+{
+  return fg__plan_reach(plan, &(fg_step){.clusters = clusters});
+}
+
+static double share(const fg__plan *plan, int first, int now)
+{
+  return fg__plan_share(plan, &(fg_step){.clusters = first}, &(fg_step){.clusters = now});
+}
+
 static void a_list_is_followed(void **state)
 {
   (void)state;
   const int list[] = {200, 60, 20};
   fg__plan plan;
   fg__plan_start(&plan, list, 3);
-  assert_int_equal(fg__plan_reach(&plan, 0), 0);
-  assert_int_equal(fg__plan_reach(&plan, 201), 0);
-  assert_int_equal(fg__plan_reach(&plan, 200), 1);
-  assert_int_equal(fg__plan_reach(&plan, 200), 0);
-  assert_int_equal(fg__plan_reach(&plan, 61), 0);
+  assert_int_equal(reach(&plan, 0), 0);
+  assert_int_equal(reach(&plan, 201), 0);
+  assert_int_equal(reach(&plan, 200), 1);
+  assert_int_equal(reach(&plan, 200), 0);
+  assert_int_equal(reach(&plan, 61), 0);
   assert_false(fg__plan_done(&plan));
-  assert_int_equal(fg__plan_reach(&plan, 19), 2); /* one state answers 60 and 20 */
+  assert_int_equal(reach(&plan, 19), 2); /* one state answers 60 and 20 */
   assert_true(fg__plan_done(&plan));
-  assert_int_equal(fg__plan_reach(&plan, 3), 0);
+  assert_int_equal(reach(&plan, 3), 0);
 }
 
 static void the_number_may_rise_again(void **state)
@@ -31,9 +41,9 @@ static void the_number_may_rise_again(void **state)
   const int list[] = {50, 40};
   fg__plan plan;
   fg__plan_start(&plan, list, 2);
-  assert_int_equal(fg__plan_reach(&plan, 50), 1);
-  assert_int_equal(fg__plan_reach(&plan, 52), 0);
-  assert_int_equal(fg__plan_reach(&plan, 50), 0);
+  assert_int_equal(reach(&plan, 50), 1);
+  assert_int_equal(reach(&plan, 52), 0);
+  assert_int_equal(reach(&plan, 50), 0);
 }
 
 /* Whatever the first number: it comes first, each next one is well below the one before
@@ -44,9 +54,9 @@ static void the_default_halves(void **state)
   for (int first = 1; first < 3000; ++first) {
     fg__plan plan;
     fg__plan_start(&plan, NULL, 0);
-    assert_int_equal(fg__plan_reach(&plan, 0), 0);
+    assert_int_equal(reach(&plan, 0), 0);
     assert_false(fg__plan_done(&plan));
-    assert_true(fg__plan_reach(&plan, first) >= 1);
+    assert_true(reach(&plan, first) >= 1);
     assert_int_equal(plan.wanted[0], first);
     assert_int_equal(plan.wanted[plan.count - 1], first > 12 ? 12 : first);
     for (int k = 1; k < plan.count; ++k) {
@@ -70,7 +80,7 @@ static void placed_arrows_have_numbers_of_their_own(void **state)
   assert_true(plan.placed);
   assert_int_equal(plan.count, 2);
   assert_memory_equal(plan.wanted, list, sizeof list);
-  assert_int_equal(fg__plan_reach(&plan, 8), 2); /* a scale each */
+  assert_int_equal(reach(&plan, 8), 2); /* a scale each */
   for (int dimension = 2; dimension <= 3; ++dimension) {
     fg__plan_start_placed(&plan, NULL, 0, dimension);
     assert_true(plan.placed);
@@ -104,12 +114,35 @@ static void the_share_of_the_way_is_even_in_the_logarithm(void **state)
   const int list[] = {100, 10};
   fg__plan plan;
   fg__plan_start(&plan, list, 2);
-  assert_true(fg__plan_share(&plan, 0, 0) == 0.0);
-  assert_true(fg__plan_share(&plan, 160, 160) == 0.0);
-  assert_true(fabs(fg__plan_share(&plan, 160, 40) - 0.5) <= 1e-9);
-  assert_true(fg__plan_share(&plan, 160, 170) == 0.0);
-  assert_true(fg__plan_share(&plan, 160, 7) == 1.0);
-  assert_true(fg__plan_share(&plan, 9, 9) == 1.0);
+  assert_true(share(&plan, 0, 0) == 0.0);
+  assert_true(share(&plan, 160, 160) == 0.0);
+  assert_true(fabs(share(&plan, 160, 40) - 0.5) <= 1e-9);
+  assert_true(share(&plan, 160, 170) == 0.0);
+  assert_true(share(&plan, 160, 7) == 1.0);
+  assert_true(share(&plan, 9, 9) == 1.0);
+}
+
+/* Whatever the number of clusters. */
+static void times_are_reached_in_order(void **state)
+{
+  (void)state;
+  const double times[] = {1e-4, 3e-4, 4e-4, 1e-2};
+  const fg_step early = {.time = 0.99e-4}, exact = {.time = 1e-4, .clusters = 5000},
+                both = {.time = 5e-4, .clusters = 80, .seconds = 1.0},
+                now = {.time = sqrt(5e-4 * 1e-2), .clusters = 60, .seconds = 3.0},
+                last = {.time = 2e-2, .clusters = 90, .seconds = 6.0};
+  fg__plan plan;
+  fg__plan_start_timed(&plan, times, 4);
+  assert_int_equal(fg__plan_reach(&plan, &early), 0);
+  assert_int_equal(fg__plan_reach(&plan, &exact), 1);
+  assert_int_equal(fg__plan_reach(&plan, &exact), 0);
+  assert_int_equal(fg__plan_reach(&plan, &both), 2);
+  assert_int_equal(plan.next, 3);
+  assert_true(fabs(fg__plan_share(&plan, &both, &now) - 0.5) <= 1e-9);
+  assert_true(fabs(fg__plan_seconds_left(&plan, &now, &both) - 2.0) <= 1e-9);
+  assert_false(fg__plan_done(&plan));
+  assert_int_equal(fg__plan_reach(&plan, &last), 1);
+  assert_true(fg__plan_done(&plan));
 }
 
 int main(void)
@@ -118,6 +151,7 @@ int main(void)
       cmocka_unit_test(a_list_is_followed),
       cmocka_unit_test(the_number_may_rise_again),
       cmocka_unit_test(the_default_halves),
+      cmocka_unit_test(times_are_reached_in_order),
       cmocka_unit_test(the_share_of_the_way_is_even_in_the_logarithm),
       cmocka_unit_test(placed_arrows_have_numbers_of_their_own),
       cmocka_unit_test(time_left_follows_the_power_law),

@@ -9,6 +9,7 @@ void fg_run_describe(fg_run_record *out, const fg_run *run)
                          .next = s->plan.next,
                          .taken = s->taken,
                          .last_clusters = s->last_clusters,
+                         .last_step = s->last_step,
                          .first = s->first};
   for (int k = 0; k < s->plan.count; ++k)
     out->wanted[k] = s->plan.wanted[k];
@@ -32,6 +33,7 @@ fg_status fg_run_resume(fg_step *step, fg_run *run, const fg_checkpoint *checkpo
   s->plan.next = record->next;
   s->taken = record->taken;
   s->last_clusters = record->last_clusters;
+  s->last_step = record->last_step;
   s->first = record->first;
   s->outcome = fg__run_ending(s);
   *step = s->step;

@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/context.h"
@@ -8,11 +9,22 @@
 #include "icon/icons.h"
 #include "place/placement.h"
 
-static fg_status check(fg_context *context, const fg_run_options *o)
+static fg_status check_times(fg_context *context, const fg_run_options *o)
 {
-  if (o->kind != FG_RUN_ARROWS && o->kind != FG_RUN_CLUSTERS)
-    return fg__fail(context, FG_STATUS_ARGUMENT, "scales: there is no kind %d",
-                    (int)o->kind);
+  if (o->count < 1 || o->count > FG_MOST_SCALES || !o->times)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "scales: %d times given; 1 to %d are possible", o->count,
+                    FG_MOST_SCALES);
+  for (int k = 0; k < o->count; ++k)
+    if (!isfinite(o->times[k]) || !(o->times[k] > (k > 0 ? o->times[k - 1] : 0.0)))
+      return fg__fail(context, FG_STATUS_ARGUMENT,
+                      "scales: time %d is %g; they must ascend from above 0", k,
+                      o->times[k]);
+  return FG_STATUS_OK;
+}
+
+static fg_status check_numbers(fg_context *context, const fg_run_options *o)
+{
   if (o->count < 0 || o->count > FG_MOST_SCALES || (o->count > 0 && !o->numbers))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "scales: %d numbers given, %d at most are possible", o->count,
@@ -22,6 +34,18 @@ static fg_status check(fg_context *context, const fg_run_options *o)
       return fg__fail(context, FG_STATUS_ARGUMENT,
                       "scales: number %d is %d; they must descend, to 1 at least", k,
                       o->numbers[k]);
+  return FG_STATUS_OK;
+}
+
+static fg_status check(fg_context *context, const fg_run_options *o)
+{
+  if (o->kind != FG_RUN_ARROWS && o->kind != FG_RUN_CLUSTERS && o->kind != FG_RUN_TIMES)
+    return fg__fail(context, FG_STATUS_ARGUMENT, "scales: there is no kind %d",
+                    (int)o->kind);
+  fg_status status =
+      o->kind == FG_RUN_TIMES ? check_times(context, o) : check_numbers(context, o);
+  if (status)
+    return status;
   if (o->kind == FG_RUN_ARROWS && o->count > 0 && o->numbers[0] > FG__MOST_ARROWS)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%d arrows are too many to be placed: %d can be", o->numbers[0],
@@ -62,7 +86,9 @@ fg_status fg_run_create(fg_run **out, fg_context *context, const fg_field *field
   fg_evolution_options evolution = o.evolution;
   if (s->placement_options.threads == 0)
     s->placement_options.threads = evolution.threads;
-  if (o.kind == FG_RUN_CLUSTERS)
+  if (o.kind == FG_RUN_TIMES)
+    fg__plan_start_timed(&s->plan, o.times, o.count);
+  else if (o.kind == FG_RUN_CLUSTERS)
     fg__plan_start(&s->plan, o.numbers, o.count);
   else
     fg__plan_start_placed(&s->plan, o.numbers, o.count,
@@ -123,7 +149,7 @@ fg_status fg_run_step(fg_step *step, fg_run *run)
     return status;
   if (s->step.clusters && !s->first.step)
     s->first = s->step;
-  s->pending = fg__plan_reach(&s->plan, s->step.clusters);
+  s->pending = fg__plan_reach(&s->plan, &s->step);
   s->outcome = fg__run_ending(s);
   *step = s->step;
   return FG_STATUS_OK;
@@ -136,7 +162,9 @@ bool fg_run_take(fg_run_scale *out, fg_run *run)
     return false;
   *out = (fg_run_scale){.index = s->taken, .step = s->step};
   if (s->pending) {
-    out->wanted = &s->plan.wanted[s->plan.next - s->pending];
+    int next = s->plan.next - s->pending;
+    out->wanted = s->plan.timed ? NULL : &s->plan.wanted[next];
+    out->times = s->plan.timed ? &s->plan.times[next] : NULL;
     out->wanted_count = s->plan.placed ? 1 : s->pending;
     s->pending -= out->wanted_count;
   }
@@ -144,7 +172,19 @@ bool fg_run_take(fg_run_scale *out, fg_run *run)
     s->extra = false;
   ++s->taken;
   s->last_clusters = s->step.clusters;
+  s->last_step = s->step.step;
   return true;
+}
+
+/* The state is one more scale of a run that can go on; a pattern that no longer changes
+ * is that of all times to come. */
+static void close_timed(fg_run *s, bool settled)
+{
+  if (settled) {
+    s->pending = s->plan.count - s->plan.next;
+    s->plan.next = s->plan.count;
+  } else
+    s->extra = s->step.step && s->last_step != s->step.step;
 }
 
 /* Any number of arrows can be placed, even where no cluster has room for an icon. */
@@ -155,6 +195,10 @@ void fg_run_close(fg_run *run)
   if (s->closed)
     return;
   s->closed = true;
+  if (s->plan.timed && !fg__plan_done(&s->plan)) {
+    close_timed(s, settled);
+    return;
+  }
   if (fg__plan_done(&s->plan) || (!s->step.clusters && !(s->plan.placed && settled)))
     return;
   if (!s->plan.placed) {
@@ -177,7 +221,7 @@ int fg_run_wanted(const int **wanted, int *next, const fg_run *run)
 void fg_run_progress(double *share, double *seconds_left, const fg_run *run)
 {
   const fg_run *s = run;
-  *share = fg__plan_share(&s->plan, s->first.clusters, s->step.clusters);
+  *share = fg__plan_share(&s->plan, &s->first, &s->step);
   *seconds_left =
       s->first.step ? fg__plan_seconds_left(&s->plan, &s->step, &s->first) : -1.0;
 }

@@ -16,6 +16,7 @@ struct fg_run {
   bool closed; /* by fg_run_close */
   int taken;   /* scales */
   int last_clusters; /* of the last one taken */
+  int64_t last_step; /* likewise */
   double max_time;
   int64_t max_steps;
   fg_run_outcome outcome;

@@ -1,6 +1,8 @@
 /* A run of scales: what it gives is what its parts give, and it always ends. */
-#include "run/run_test.h"
+#include <math.h>
+
 #include "icon/icons.h"
+#include "run/run_test.h"
 
 /* Clusters: each scale is the first state at or below its number, with the icons of its
  * density. */
@@ -46,6 +48,81 @@ static void clusters_are_those_of_the_evolution(void **state)
   assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
   fg_evolution_destroy(evolution);
   fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+/* Times: each scale is the first state at or after its time, also before there are
+ * clusters; one state answers two times. */
+static void times_are_those_of_the_evolution(void **state)
+{
+  static const double times[] = {1e-6, 4e-3, 1.4e-2, 1.401e-2, 3e-2};
+  static const int reached[] = {1, 1, 2, 1};
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3");
+  const fg_run_options options = {.kind = FG_RUN_TIMES,
+                                  .times = times,
+                                  .count = 5,
+                                  .evolution = {.nodes = 65, .noise = 0.02}};
+  fg_run *run = run_of(context, field, &options);
+  fg_evolution *evolution = NULL;
+  assert_int_equal(fg_evolution_create(&evolution, context, field, &options.evolution),
+                   FG_STATUS_OK);
+  const fg_run_scale *scale;
+  fg_step step = {0};
+  for (int k = 0, next = 0; k < 4; next += reached[k++]) {
+    double before = 0.0;
+    while (step.time < times[next]) {
+      before = step.time;
+      assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+    }
+    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    assert_int_equal(scale->index, k);
+    assert_int_equal(scale->step.step, step.step);
+    assert_true(before < times[next]);
+    assert_null(scale->wanted);
+    assert_int_equal(scale->wanted_count, reached[k]);
+    assert_memory_equal(scale->times, times + next, (size_t)reached[k] * sizeof *times);
+    assert_int_equal(fg_icons_count(scale->icons) > 0, k > 1);
+  }
+  assert_true(step.clusters > 0);
+  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_null(scale);
+  assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
+  fg_evolution_destroy(evolution);
+  fg_run_destroy(run);
+  fg_field_destroy(field);
+}
+
+/* Returns the step of the first scale. */
+static int64_t times_up_to(fg_context *context, const fg_field *field, int64_t max_steps,
+                           int scales)
+{
+  static const double times[] = {1e-4, 1.0};
+  const fg_run_options options = {.kind = FG_RUN_TIMES,
+                                  .times = times,
+                                  .count = 2,
+                                  .max_steps = max_steps,
+                                  .evolution = {.nodes = 33}};
+  fg_run *run = run_of(context, field, &options);
+  const fg_run_scale *scale;
+  int64_t step[2] = {0};
+  int count = 0;
+  while (!fg_run_next(&scale, run) && scale)
+    step[count++ % 2] = scale->step.step;
+  assert_int_equal(count, scales);
+  assert_int_equal(step[count - 1], max_steps);
+  assert_int_equal(fg_run_ended(run), FG_RUN_AT_STEPS);
+  fg_run_destroy(run);
+  return step[0];
+}
+
+/* The state at the end is one more scale, if it is none yet. */
+static void times_end_with_the_last_state(void **state)
+{
+  fg_context *context = *state;
+  fg_field *field = field_of(context, "vortex3");
+  int64_t first = times_up_to(context, field, 30, 2);
+  assert_int_equal(times_up_to(context, field, first, 1), first);
   fg_field_destroy(field);
 }
 
@@ -165,6 +242,7 @@ static void a_run_that_falls_short_shows_what_it_has(void **state)
 static void wrong_numbers_are_refused(void **state)
 {
   static const int rising[] = {20, 21}, none[] = {5, 0};
+  static const double falling[] = {2e-3, 1e-3}, zero[] = {0.0}, endless[] = {HUGE_VAL};
   fg_context *context = *state;
   fg_field *field = field_of(context, "vortex");
   const fg_run_options wrong[] = {{.numbers = rising, .count = 2},
@@ -172,6 +250,11 @@ static void wrong_numbers_are_refused(void **state)
                                   {.numbers = rising, .count = FG_MOST_SCALES + 1},
                                   {.count = 1},
                                   {.kind = (fg_run_kind)7},
+                                  {.kind = FG_RUN_TIMES},
+                                  {.kind = FG_RUN_TIMES, .count = 1},
+                                  {.kind = FG_RUN_TIMES, .times = falling, .count = 2},
+                                  {.kind = FG_RUN_TIMES, .times = zero, .count = 1},
+                                  {.kind = FG_RUN_TIMES, .times = endless, .count = 1},
                                   {.max_time = -1.0},
                                   {.evolution = {.mesh = (fg_mesh_kind)5}}};
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; ++k) {
@@ -188,6 +271,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(clusters_are_those_of_the_evolution, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(times_are_those_of_the_evolution, context_set_up,
+                                      context_tear_down),
+      cmocka_unit_test_setup_teardown(times_end_with_the_last_state, context_set_up,
                                       context_tear_down),
       cmocka_unit_test_setup_teardown(arrows_are_as_many_as_are_wanted, context_set_up,
                                       context_tear_down),

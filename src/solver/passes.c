@@ -101,24 +101,26 @@ static void evaluate(pass *p, const fg__level *level, const fg__thread *thread)
   fg__sums part = p->multigrid->kernel->evaluate(level, p->from, p->to, thread);
   p->sums[thread->index].energy += part.energy;
   p->sums[thread->index].u += part.u;
+  p->sums[thread->index].chemical += part.chemical;
 }
 
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w)
 {
   pass p = {.multigrid = multigrid, .from = u, .to = w};
   run_on_finest(&p, evaluate);
-  fg__sums total = {0.0, 0.0};
+  fg__sums total = {0.0, 0.0, 0.0};
   for (int n = 0; n < FG__MOST_THREADS; ++n) {
     total.energy += p.sums[n].energy;
     total.u += p.sums[n].u;
+    total.chemical += p.sums[n].chemical;
   }
   if (is_distributed(multigrid)) {
     const fg__distributed *finest = &multigrid->distributed[0];
     double rounding = fg__level_rounding(node_count(multigrid));
     fg__distributed_exchange_ends(finest, 1, &w);
     /* halves of exact sums */
-    add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u},
-                   (const double[]){0.5 * rounding, rounding}, 2);
+    add_over_ranks(multigrid, (double *const[]){&total.energy, &total.u, &total.chemical},
+                   (const double[]){0.5 * rounding, rounding, 0.5 * rounding}, 3);
   }
   return total;
 }

@@ -10,7 +10,7 @@
 void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles,
                     float *before);
 
-/* w := Psi'(u) + K u; returns the energy and the sum of u. */
+/* w := Psi'(u) + K u; returns the energy, its chemical part and the sum of u. */
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
 
 /* p of the finest level := u - tau L w. */

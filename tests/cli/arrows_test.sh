@@ -152,6 +152,13 @@ refused() {
 refused '--arrows and --clusters' --arrows 12 --clusters 3
 refused '--tolerance 20: .* --arrows' --arrows 12 --tolerance 20
 refused '--tolerance 20: .* --clusters' --clusters 12 --tolerance 20
+refused '--clusters and --times' --clusters 12 --times 1e-3
+refused '--arrows and --times' --arrows 12 --times 1e-3
+refused '--tolerance and --times' --tolerance 20 --times 1e-3
+refused '--start: .* --times' --times 1e-3 --start even
+refused '1e-3 follows 0.002' --times 2e-3,1e-3
+refused "'0' is no time above 0" --times 0
+refused "'soon' is no time" --times soon
 refused '--start: .* --clusters' --clusters 12 --start even
 refused '--lengths: .* --clusters' --clusters 12 --lengths fair
 refused '--effort: .* --clusters' --clusters 12 --effort 2

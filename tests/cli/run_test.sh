@@ -50,19 +50,20 @@ expect_json $report '[.seconds | .read, .evolve, .icons, .pictures, .total] | ma
 expect_json $report '.seconds.total >= .seconds.evolve'
 done_with "run.json keeps its promises"
 
-[ "$(head -1 out1/evolution.csv)" = "step,t,tau,energy,mass,area_fraction,clusters,cycles,cells,seconds" ] ||
+[ "$(head -1 out1/evolution.csv)" = "step,t,tau,energy,chemical_energy,gradient_energy,mass,area_fraction,clusters,cycles,cells,seconds" ] ||
   fault "$(head -1 out1/evolution.csv)"
 awk -F, 'NR == 1 { next }
-  NF != 10 { print "line " NR ": " NF " columns"; exit }
+  NF != 12 { print "line " NR ": " NF " columns"; exit }
   $1 != NR - 1 { print "line " NR ": step " $1; exit }
   NR > 2 && $2 <= t { print "line " NR ": time " $2; exit }
   NR > 2 && $4 > energy { print "line " NR ": energy rises to " $4; exit }
-  NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
-  $3 <= 0 || $6 < 0 || $6 > 1 || $8 < 1 || $9 < 1 { print "line " NR ": " $0; exit }
-  { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt
+  ($5 + $6 - $4) ^ 2 > 1e-22 || $5 < 0 || $6 < 0 { print "line " NR ": energies " $5 " and " $6; exit }
+  NR > 2 && ($7 - mass > 1e-7 || mass - $7 > 1e-7) { print "line " NR ": mass " $7; exit }
+  $3 <= 0 || $8 < 0 || $8 > 1 || $10 < 1 || $11 < 1 { print "line " NR ": " $0; exit }
+  { t = $2; energy = $4; if (NR == 2) mass = $7 }' out1/evolution.csv >fault.txt
 [ ! -s fault.txt ] || fault "$(cat fault.txt)"
 [ "$(($(wc -l <out1/evolution.csv) - 1))" = "$(jq .steps.accepted $report)" ] || fault "rows and steps differ"
-done_with "evolution.csv: a row a step, energy never up, mass held"
+done_with "evolution.csv: a row a step, energy never up, the sum of its parts, mass held"
 
 for scale in 0 1 2; do
   file=out1/scale-0$scale.geojson
@@ -177,8 +178,8 @@ expect_json out9auto/run.json '.parameters.mesh == "adaptive" and .mesh.cells ==
   and .mesh.coarser[0].clusters <= 64 and .energy_monotone_between_coarsenings and .mass_drift < 1e-7'
 cmp -s out9uniform/scale-00.geojson out9auto/scale-00.geojson || fault "it is coarser too early"
 cmp -s out9uniform/scale-01.geojson out9auto/scale-01.geojson && fault "the mesh has not changed"
-[ "$(cut -d, -f9 out9auto/evolution.csv | sort -u | tr '\n' ' ')" = "262144 65536 cells " ] ||
-  fault "evolution.csv: $(cut -d, -f9 out9auto/evolution.csv | sort -u | tr '\n' ' ')"
+[ "$(cut -d, -f11 out9auto/evolution.csv | sort -u | tr '\n' ' ')" = "262144 65536 cells " ] ||
+  fault "evolution.csv: $(cut -d, -f11 out9auto/evolution.csv | sort -u | tr '\n' ' ')"
 done_with "an adaptive mesh is halved as clusters grow"
 # directions of measured wind change within the width of an interface
 try run "$root/data/gfs_20140131.nc" -o out9wind --projection none --nodes 513 --clusters 60,24 --no-arrows --quiet
@@ -196,6 +197,49 @@ awk -F, -v "$(jq -r '.mesh.coarser[0] | "step=\(.step)"' out9wind/run.json)" \
 done_with "the energy does not grow where the mesh is coarsened over measured wind"
 fi
 
+# before clusters, while they form, when they can be counted, and two times in one step
+times=(run synth:vortex3 --nodes 97 --noise 0.02 --times 1e-5,1.3e-3,4.9e-3,6e-3,6.001e-3,2e-2 --width 200 --no-page)
+try "${times[@]}" -o times --save-field
+expect_code 0
+expect_json times/run.json '.ended == "scales" and .parameters.times == [1e-5, 1.3e-3, 4.9e-3, 6e-3, 6.001e-3, 2e-2]'
+expect_json times/run.json '[.scales[].time] | . == sort and length == 5'
+jq -r '.scales[].time' times/run.json | awk '
+  FNR == NR { t[NR] = $1; n = NR; next }
+  FNR > 1 { for (k = 1; k <= n; ++k) if ($2 > t[k] * (1 - 1e-8) && !seen[k]++) at[k] = $2 - $3 }
+  END { split("1e-5 1.3e-3 4.9e-3 6e-3 2e-2", wanted, " ")
+    for (k = 1; k <= n; ++k)
+      if (!(at[k] < wanted[k] && t[k] >= wanted[k])) print "scale " k ": t = " t[k] " after " at[k]
+  }' - FS=, times/evolution.csv >fault.txt
+[ ! -s fault.txt ] || fault "$(cat fault.txt)"
+expect_json times/run.json '[.scales[].icons > 0] == [false, false, true, true, true] and .scales[4].clusters > 4'
+expect_error '2 of 5 scales have no arrows'
+[ "$(awk '{print $1, $2}' out | sort -u)" = "t =" ] || fault "$(cat out)"
+for scale in 0 1 2 3 4; do
+  expect_file "times/scale-0$scale.png"
+  expect_file "times/scale-0$scale.vti"
+done
+grep -q '<image' times/scale-00.svg || fault "no density in the picture"
+grep -q '<image' times/scale-02.svg && fault "the density is behind the arrows"
+done_with "scales at given times, from the noise on"
+
+# first what does not grow of the noise smooths away
+awk -F, 'NR == 1 { next }
+  NR == 2 { first = $5; least = $6 }
+  !$9 && $2 > 1e-3 && !($5 < chemical && $6 > gradient) { print "step " $1 ": " $5 ", " $6; exit }
+  { chemical = $5; gradient = $6; least = $6 < least ? $6 : least }
+  $9 { if (!($5 < 0.5 * first && $6 > 1000 * least)) print $5 ", " $6 " from " first ", " least; exit }
+  ' times/evolution.csv >fault.txt
+[ ! -s fault.txt ] || fault "$(cat fault.txt)"
+done_with "as phases separate the chemical energy falls and the gradient energy rises"
+
+try "${times[@]}" -o cut --save-field --max-time 2e-3
+expect_code 0
+expect_json cut/run.json '.ended == "time" and (.scales | length) == 3 and .scales[2].time >= 2e-3'
+try "${times[@]}" -o cut --save-field --resume
+expect_code 0
+expect_same_results cut times
+done_with "a run by times goes on"
+
 gamma=(run synth:vortex3 --nodes 65 --gamma 2e-3 --max-steps 40 --clusters 30 --quiet --formats svg)
 try "${gamma[@]}" -o out9gamma
 expect_code 0
@@ -210,7 +254,7 @@ expect_code 0
 expect_error ', theta scheme, '
 expect_json out9t/run.json '.parameters.scheme == "theta" and .energy_monotone == true'
 expect_json out1/run.json '.parameters.scheme == "bdf2"'
-[ "$(awk -F, 'NR > 1 && $8 % 9' out9t/evolution.csv)" = "" ] || fault "cycles are not those of three substeps"
+[ "$(awk -F, 'NR > 1 && $10 % 9' out9t/evolution.csv)" = "" ] || fault "cycles are not those of three substeps"
 done_with "the theta scheme"
 
 try run synth:vortex3 -o out10 "${one[@]}" --extent cluster

@@ -64,10 +64,10 @@ done
 done_with "a scale is VTK polydata with centre, spine, streamline and arrow of each icon"
 
 awk -F, 'NR == 1 { next }
-  NF != 10 || $1 != NR - 1 || $9 != 32768 { print "line " NR ": " $0; exit }
+  NF != 12 || $1 != NR - 1 || $11 != 32768 { print "line " NR ": " $0; exit }
   NR > 2 && ($2 <= t || $4 > energy) { print "line " NR ": " $0; exit }
-  NR > 2 && ($5 - mass > 1e-7 || mass - $5 > 1e-7) { print "line " NR ": mass " $5; exit }
-  { t = $2; energy = $4; if (NR == 2) mass = $5 }' out1/evolution.csv >fault.txt
+  NR > 2 && ($7 - mass > 1e-7 || mass - $7 > 1e-7) { print "line " NR ": mass " $7; exit }
+  { t = $2; energy = $4; if (NR == 2) mass = $7 }' out1/evolution.csv >fault.txt
 [ ! -s fault.txt ] || fault "$(cat fault.txt)"
 done_with "evolution.csv: energy never up, mass held"
 

@@ -17,7 +17,7 @@ const fg__named_value fg__stepper_values[] = {
     VALUE(quiet_steps, INT64), VALUE(history, FLAG),   VALUE(time, REAL),
     VALUE(tau, REAL),          VALUE(last_tau, REAL),  VALUE(tau_limit, REAL),
     VALUE(energy, REAL),       VALUE(mass, REAL),      VALUE(increment, REAL),
-    VALUE(persistence, REAL),
+    VALUE(persistence, REAL),  VALUE(chemical, REAL),
 };
 const size_t fg__stepper_value_count =
     sizeof fg__stepper_values / sizeof fg__stepper_values[0];

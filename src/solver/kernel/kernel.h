@@ -33,6 +33,7 @@ typedef struct fg__changes {
 typedef struct fg__sums {
   double energy; /* m (Psi(u) + u K u / 2), the last times the level's gradient_weight */
   double u;      /* m u */
+  double chemical; /* m Psi(u) */
 } fg__sums;
 
 /* Every operation is called by all threads, each with its slices, and returns when all

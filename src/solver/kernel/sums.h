@@ -100,7 +100,7 @@ INLINE int nodes_of(const fg__level *level, int colour)
  * vector code. */
 INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const around *x,
                            const float *mass_inverse, const fg__level *level, float *w,
-                           int start, int lanes, double sum[2][FG__LANES])
+                           int start, int lanes, double sum[3][FG__LANES])
 {
   double rounding = level->rounding, weight = level->gradient_weight;
   INDEPENDENT
@@ -112,15 +112,16 @@ INLINE void evaluate_nodes(const row_weights *r, const couplings *c, const aroun
       energy *= mass_inverse[k];
     float well = u * u - 1.0F;
     w[k] = 2.0F * u * well + energy;
-    double terms =
-        (double)(mass * (well * well)) - weight * (double)gradient_at(r, c, x, k);
+    double chemical = (double)(mass * (well * well));
+    double terms = chemical - weight * (double)gradient_at(r, c, x, k);
     sum[0][n] += rounded(terms, rounding);
     sum[1][n] += rounded((double)(mass * u), rounding);
+    sum[2][n] += rounded(chemical, rounding);
   }
 }
 
 INLINE void evaluate_nodes_of_row(const fg__level *level, const float *u, float *w, int j,
-                                  int k, bool masked, double sum[2][FG__LANES])
+                                  int k, bool masked, double sum[3][FG__LANES])
 {
   ptrdiff_t at = fg__row_at(&level->layout, j, k);
   for (int colour = EVEN; colour <= ODD; ++colour) {
@@ -138,13 +139,13 @@ INLINE void evaluate_nodes_of_row(const fg__level *level, const float *u, float 
 }
 
 ROW_LOOP void evaluate_plain(const fg__level *level, const float *u, float *w, int j,
-                             int k, double sum[2][FG__LANES])
+                             int k, double sum[3][FG__LANES])
 {
   evaluate_nodes_of_row(level, u, w, j, k, false, sum);
 }
 
 ROW_LOOP void evaluate_masked(const fg__level *level, const float *u, float *w, int j,
-                              int k, double sum[2][FG__LANES])
+                              int k, double sum[3][FG__LANES])
 {
   evaluate_nodes_of_row(level, u, w, j, k, true, sum);
 }
@@ -187,7 +188,7 @@ static void fill_ghosts_of_slice(const fg__level *level, float *array, int s)
 static fg__sums evaluate(const fg__level *level, const float *u, float *w,
                          const fg__thread *thread)
 {
-  double sum[2][FG__LANES] = {{0.0}};
+  double sum[3][FG__LANES] = {{0.0}};
   slab mine = slab_of(level, thread);
   for (int s = mine.begin; s < mine.end; ++s) {
     for (int n = 0; n < rows_of_slice(level); ++n)
@@ -196,7 +197,7 @@ static fg__sums evaluate(const fg__level *level, const float *u, float *w,
     fill_ghosts_of_slice(level, w, s);
   }
   fg__threads_barrier(thread);
-  return (fg__sums){0.5 * total(sum[0]), total(sum[1])};
+  return (fg__sums){0.5 * total(sum[0]), total(sum[1]), 0.5 * total(sum[2])};
 }
 
 INLINE void explicit_nodes(const fg__level *level, const float *u, const float *w,
