@@ -240,6 +240,12 @@ expect_code 0
 expect_same_results cut times
 done_with "a run by times goes on"
 
+try run synth:vortex3 -o settled --nodes 33 --times 1e-3,1e8,1e9 --no-page --formats svg --quiet
+expect_code 0
+expect_json settled/run.json '.ended == "stationary" and (.scales | length) == 2'
+expect_error 'came to rest at t = .* all times from there to 1e\+09'
+done_with "a pattern at rest stands for all later times"
+
 gamma=(run synth:vortex3 --nodes 65 --gamma 2e-3 --max-steps 40 --clusters 30 --quiet --formats svg)
 try "${gamma[@]}" -o out9gamma
 expect_code 0
