@@ -2,10 +2,11 @@
 
 #include "base/memory.h"
 #include "field/field.h"
-#include "field/measure.h"
 #include "field/slab.h"
+#include "terms/measure.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Of an axis' mean interval: a region that ends so near to a sample ends at it, since
@@ -250,4 +251,16 @@ fg_status fg__region_cut(fg_field **field, fg_context *context, const char *path
     *field = cut;
   }
   return status;
+}
+
+double fg_field_measured(const fg_field *field, int axis, double coordinate)
+{
+  const fg__measure measure = fg__measure_of(fg_field_contents(field)->axis_units[axis]);
+  return fg__measure_value(&measure, coordinate);
+}
+
+void fg_field_measured_units(char *out, size_t size, const fg_field *field, int axis)
+{
+  const fg__measure measure = fg__measure_of(fg_field_contents(field)->axis_units[axis]);
+  snprintf(out, size, "%s", measure.units);
 }

@@ -18,7 +18,7 @@ typedef struct fg__region_range {
   double low, high; /* where the cut ends: the region's or the axis' bounds */
 } fg__region_range;
 
-/* Narrows bounds along axis k, of that name and units (field/measure.h), to those of the
+/* Narrows bounds along axis k, of that name and units (terms/measure.h), to those of the
  * region, which are measured ones. ARGUMENT, with both: they have nothing in common. */
 fg_status fg__region_clip(double *low, double *high, fg_context *context,
                           const char *path, const fg__field_region *region, int k,

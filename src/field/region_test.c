@@ -1,8 +1,10 @@
 /* Parts of fields in a region. */
 #include <math.h>
+#include <string.h>
 
 #include "field/made_test.h"
 #include "field/region.h"
+#include "terms/measure.h"
 
 enum { NX = 7, NY = 5, NZ = 4, COUNT = NX * NY * NZ };
 
@@ -164,9 +166,44 @@ static void a_period_ends_with_the_region(void **state)
   fg_field_destroy(field);
 }
 
+/* Of an axis that is drawn on another scale. */
+static void regions_are_measured(void **state)
+{
+  enum { SIDE = 5 };
+  static const double axis[2][SIDE] = {{0, 1, 2, 3, 4}, {-40, -30, -20, -10, -4}};
+  float velocity[SIDE * SIDE];
+  fg_field *field;
+  for (int n = 0; n < SIDE * SIDE; ++n)
+    velocity[n] = 1.0F;
+  const fg_field_arrays arrays = {.dimension = 2,
+                                  .size = {SIDE, SIDE},
+                                  .axis = {axis[0], axis[1]},
+                                  .velocity = {velocity, velocity},
+                                  .axis_name = {"x", "level"},
+                                  .axis_units = {"m", "-25 hPa"}};
+  const fg__field_region region = {2, {1, 250}, {3, 1000}},
+                         beyond = {2, {1, 1100}, {3, 1200}};
+  char units[FG__MEASURE_BYTES];
+  assert_int_equal(fg_field_create(&field, *state, &arrays), FG_STATUS_OK);
+  assert_int_equal(fg__region_cut(&field, *state, "a", &beyond), FG_STATUS_ARGUMENT);
+  assert_non_null(strstr(fg_context_message(*state),
+                         "from level = 1100 to 1200, and the field from 1000 to 100"));
+  fg_context_clear(*state);
+  assert_int_equal(fg__region_cut(&field, *state, "a", &region), FG_STATUS_OK);
+  const fg_field_arrays *cut = fg_field_contents(field);
+  assert_int_equal(cut->size[1], 4);
+  assert_true(fg_field_measured(field, 1, cut->axis[1][0]) == 1000.0);
+  assert_true(fg_field_measured(field, 1, cut->axis[1][3]) == 250.0);
+  assert_true(fg_field_measured(field, 0, cut->axis[0][0]) == 1.0);
+  fg_field_measured_units(units, sizeof units, field, 1);
+  assert_string_equal(units, "hPa");
+  fg_field_destroy(field);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(regions_are_measured),
       cmocka_unit_test(a_part_is_the_field_itself_there),
       cmocka_unit_test(a_region_without_samples_is_refused),
       cmocka_unit_test(a_bound_beside_a_missing_sample_is_missing),

@@ -301,7 +301,7 @@ int fg__section_along(int position[FG__ROLES], const fg__dataset *data,
 void fg__section_settle(fg__pair *pair, const fg__dataset *data);
 
 /* Finds the grid of such a pair. Its levels become coordinates that grow upwards, on the
- * scale of the other axis (field/measure.h). MEMORY, FILE_ACCESS. */
+ * scale of the other axis (terms/measure.h). MEMORY, FILE_ACCESS. */
 fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                            const fg_read_options *options);
 

@@ -3,7 +3,7 @@
 #include "base/angle.h"
 #include "base/decimal.h"
 #include "base/memory.h"
-#include "field/measure.h"
+#include "terms/measure.h"
 #include "interpret/interpret.h"
 #include "terms/names.h"
 #include "terms/text.h"

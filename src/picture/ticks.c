@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/measure.h"
+#include "terms/measure.h"
 #include "picture/plain_text.h"
 #include "picture/units.h"
 

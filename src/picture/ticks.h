@@ -31,7 +31,7 @@ typedef struct fg__ticks {
   char text[FG__TICK_LIMIT][FG__TICK_BYTES];
 } fg__ticks;
 
-/* An axis of numbers, on the scale of its units (field/measure.h): lengths in the unit
+/* An axis of numbers, on the scale of its units (terms/measure.h): lengths in the unit
  * that suits `extent` (the larger extent of the axes that share it), a power of ten or an
  * offset in the label instead of long numbers.
  */

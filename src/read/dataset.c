@@ -1,7 +1,7 @@
 /* Fields, spheres and inventories of datasets of any format. */
 #include "read/vector_choice.h"
 
-#include "field/measure.h"
+#include "terms/measure.h"
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"

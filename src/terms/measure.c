@@ -1,7 +1,6 @@
-#include "field/measure.h"
+#include "terms/measure.h"
 
 #include "base/decimal.h"
-#include "flowgrain/field.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -34,16 +33,4 @@ double fg__measure_value(const fg__measure *measure, double coordinate)
 double fg__measure_coordinate(const fg__measure *measure, double value)
 {
   return (measure->logarithmic ? log10(value) : value) / measure->factor;
-}
-
-double fg_field_measured(const fg_field *field, int axis, double coordinate)
-{
-  const fg__measure measure = fg__measure_of(fg_field_contents(field)->axis_units[axis]);
-  return fg__measure_value(&measure, coordinate);
-}
-
-void fg_field_measured_units(char *out, size_t size, const fg_field *field, int axis)
-{
-  const fg__measure measure = fg__measure_of(fg_field_contents(field)->axis_units[axis]);
-  snprintf(out, size, "%s", measure.units);
 }
