@@ -1,7 +1,6 @@
 /* Fields, spheres and inventories of datasets of any format. */
 #include "read/vector_choice.h"
 
-#include "terms/measure.h"
 #include "field/slab.h"
 #include "map/project.h"
 #include "sample/curvilinear/points.h"
@@ -11,6 +10,7 @@
 #include "sample/space/space.h"
 #include "sample/unstructured/mesh.h"
 #include "sample/velocity.h"
+#include "terms/measure.h"
 
 #include <math.h>
 #include <stdio.h>
