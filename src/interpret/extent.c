@@ -2,6 +2,7 @@
  * geospatial_lat_min, ... (Attribute Convention for Data Discovery) and in the bounds of
  * cells (CF conventions, section 7.1). */
 #include "base/angle.h"
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
 #include "terms/units.h"
@@ -21,10 +22,12 @@ typedef struct extent {
 
 static bool read_number(double *out, const fg__variable *file, const char *name)
 {
-  char text[FG__TEXT_BYTES], *end;
+  char text[FG__TEXT_BYTES] = "";
+  const char *end = text;
   if (fg__attribute_numbers(file, name, out, 1) == 1)
     return true;
-  *out = fg__attribute_text(file, name, text, sizeof text) ? strtod(text, &end) : 0.0;
+  *out = fg__attribute_text(file, name, text, sizeof text) ? fg__number_read(text, &end)
+                                                           : 0.0;
   return text[0] && end != text && !*end;
 }
 

@@ -3,8 +3,8 @@
 #include "base/angle.h"
 #include "base/decimal.h"
 #include "base/memory.h"
-#include "terms/measure.h"
 #include "interpret/interpret.h"
+#include "terms/measure.h"
 #include "terms/names.h"
 #include "terms/text.h"
 
@@ -190,7 +190,7 @@ static double component_ratio(fg__grid *grid, const fg__pair *pair)
 static void check_components(fg__grid *grid, const fg__dataset *data,
                              const fg__pair *pair, int along, int level)
 {
-  static const char *const called[] = {"east", "north"};
+  static const char *const called[] = {"east", "north"}, *const usual[] = {"U", "V"};
   const fg__variable *u = pair->component[0], *w = pair->component[1];
   const fg__term of_u = fg__term_of(u), of_w = fg__term_of(w);
   const char *said = of_u.standard_name ? of_u.standard_name : of_u.name;
@@ -216,9 +216,7 @@ static void check_components(fg__grid *grid, const fg__dataset *data,
   snprintf(grid->hint, sizeof grid->hint,
            "--vars %.60s,%.60s; --scale plain takes any two components as if they were "
            "along the axes",
-           points >= 0 && points != along ? (const char *const[]){"U", "V"}[along]
-                                          : u->name,
-           up ? up->name : "W");
+           points >= 0 && points != along ? usual[along] : u->name, up ? up->name : "W");
 }
 
 /* Replaces the levels by coordinates that grow upwards, on the scale of the other axis.
@@ -316,9 +314,11 @@ fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pa
   const fg__variable *u = pair->component[0];
   const bool plain = options->scale == FG_SCALE_PLAIN,
              logarithmic = options->scale == FG_SCALE_LOG;
-  int position[FG__ROLES];
+  int position[FG__ROLES] = {-1, -1, -1, -1};
   const int along = fg__section_along(position, data, u),
             level = position[FG__ROLE_LEVEL];
+  if (along < 0 || level < 0)
+    return FG_STATUS_OK;
   grid->scale = FG_SCALE_PLAIN;
   grid->time = position[FG__ROLE_TIME];
   fg__check_storage(grid, data, u);

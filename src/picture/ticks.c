@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "terms/measure.h"
 #include "picture/plain_text.h"
 #include "picture/units.h"
+#include "terms/measure.h"
 
 #define MINUS "\xE2\x88\x92"
 #define DEGREE "\xC2\xB0"
@@ -197,7 +197,7 @@ static void fill_logarithmic(fg__ticks *out, const fg__tick_axis *axis)
   const double low = fmin(axis->low * axis->factor, axis->high * axis->factor);
   const double high = fmax(axis->low * axis->factor, axis->high * axis->factor);
   const double every = fmax(1.0, round(step));
-  static const double powers[] = {1, 0};
+  static const double powers[10] = {1};
   const double *number = powers;
   for (int k = 0; k < DECADES; ++k)
     if (fabs(decades[k].interval - step) < 1e-4)
