@@ -28,28 +28,25 @@ static bool check_energy(const evolution_settings *settings, const cli_command *
   return true;
 }
 
-/* Options that choose scales by arrows, by clusters or by tolerance exclude each
- * other. */
+/* Options that choose scales exclude each other. */
 static bool check_placement(const run_settings *settings, const cli_command *command)
 {
-  if (settings->arrows.count && settings->clusters.count)
-    return usage_error(command,
-                       "--arrows and --clusters: say one; --clusters draws an arrow in "
-                       "each cluster, however many they are");
-  const char *other = settings->arrows.count      ? "arrows"
-                      : settings->clusters.count  ? "clusters"
-                      : settings->tolerance > 0.0 ? "tolerance"
-                                                  : NULL;
-  if (settings->times.count && other)
-    return usage_error(
-        command,
-        "--%s and --times: say one; --times draws an arrow in each cluster, "
-        "however many they are",
-        other);
-  if (settings->tolerance > 0.0 && (settings->arrows.count || settings->clusters.count))
-    return usage_error(
-        command, "--tolerance %g: finds the number of arrows; not with --%s",
-        settings->tolerance, settings->arrows.count ? "arrows" : "clusters");
+  const struct {
+    const char *name;
+    bool given;
+  } options[] = {{"arrows", settings->arrows.count > 0},
+                 {"tolerance", settings->tolerance > 0.0},
+                 {"clusters", settings->clusters.count > 0},
+                 {"times", settings->times.count > 0}};
+  const char *first = NULL;
+  for (size_t n = 0; n < sizeof options / sizeof *options; ++n) {
+    if (options[n].given && first)
+      return usage_error(command,
+                         "--%s and --%s: say one; --tolerance finds a number of arrows, "
+                         "--clusters and --times draw one in each cluster",
+                         first, options[n].name);
+    first = options[n].given ? options[n].name : first;
+  }
   if (settings->picture.no_arrows &&
       (settings->arrows.count || settings->tolerance > 0.0))
     return usage_error(command, "--%s and --no-arrows: say one",
@@ -64,10 +61,13 @@ static bool check_placement(const run_settings *settings, const cli_command *com
                        settings->clusters.count ? "clusters"
                        : settings->times.count  ? "times"
                                                 : "no-arrows");
-  if (settings_place(settings) &&
-      (settings->picture.skeletons || settings->picture.centers))
+  const char *of_clusters = settings->picture.skeletons ? "skeletons"
+                            : settings->picture.centers ? "centers"
+                            : settings->extent          ? "extent"
+                                                        : NULL;
+  if (of_clusters && settings_place(settings))
     return usage_error(command, "--%s: of clusters; say how many with --clusters",
-                       settings->picture.skeletons ? "skeletons" : "centers");
+                       of_clusters);
   return true;
 }
 

@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 typedef enum fg_run_kind {
-  FG_RUN_ARROWS = 0, /* placed: exactly so many arrows */
-  FG_RUN_CLUSTERS,   /* an arrow in each cluster, at most so many clusters */
+  FG_RUN_ARROWS = 0, /* placed: exactly that number of arrows */
+  FG_RUN_CLUSTERS,   /* an arrow in each cluster, at most that number of them */
   FG_RUN_TIMES       /* the same at given times, however many clusters there are */
 } fg_run_kind;
 
@@ -75,7 +75,7 @@ FG_API void fg_run_destroy(fg_run *run);
 /* Goes on to the next scale and makes its density and icons; *out is NULL after the last.
  * A run always ends: one whose pattern comes to rest early gives what it has, arrows as
  * many as are wanted all the same, and at later times that pattern. Collective.
- * NO_CONVERGENCE, ARGUMENT (so many arrows have no room), MEMORY, STOPPED, MPI. */
+ * NO_CONVERGENCE, ARGUMENT (no room for a number of arrows), MEMORY, STOPPED, MPI. */
 FG_API fg_status fg_run_next(const fg_run_scale **out, fg_run *run);
 
 /* Why the run has ended, or that it has not. */

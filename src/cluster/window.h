@@ -21,7 +21,6 @@ typedef struct fg__window {
   bool at_boundary[6];   /* the window's low and high side of each axis is the domain's
                             boundary (not a periodic one), or the cut through a closed
                             cluster */
-  const struct fg__territory *territory; /* that it is one of; NULL: it is a cluster */
 } fg__window;
 
 static inline size_t fg__window_count(const fg__window *window)

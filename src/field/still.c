@@ -7,8 +7,8 @@
 /* Speeds are counted by the first bits of a float: 16 bins to a factor of 2. */
 enum { BIN_SHIFT = 19, BINS = 1 << (31 - BIN_SHIFT), BINS_TO_8 = 3 * 16 };
 
-/* The fewest of what moves that a typical speed is of: one in so many. A vessel fills 1 %
- * of its box; within a few samples of a singularity speeds leap. */
+/* At least one in FEWEST of the samples that move reaches a typical speed. A vessel fills
+ * 1 % of its box; within a few samples of a singularity speeds leap. */
 enum { FEWEST = 200 };
 
 /* Of 24 measured, simulated and analytic fields the fastest has 28 times its typical

@@ -20,8 +20,8 @@ bool fg__moves(double speed, double top);
  * where there is none. */
 double fg__usual_speed(const float *speed, size_t count, double top);
 
-/* Which share of a raster's speeds hardly moves, beside the usual one: more than half of
- * a box of noise round a vessel does. */
+/* Which share of a raster's speeds is slower than a tenth of the usual one: more than
+ * half in a box of noise round a vessel. */
 double fg__slow_share(const float *speed, size_t count, double usual);
 
 #endif

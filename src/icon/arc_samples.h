@@ -31,6 +31,7 @@ typedef struct fg__interior {
   const double *distance; /* the window's distance map */
   double spacing;         /* of the density: the yardstick of readability */
   double margin;          /* between the outline and the window's zero set, in 2D */
+  const struct fg__territory *territory; /* which it is one of; NULL: it is a cluster */
 } fg__interior;
 
 /* In 2D the distance map is of first order near corners: that many spacings of it are not

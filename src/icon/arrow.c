@@ -258,7 +258,7 @@ static bool is_too_long(const arrow_search *search, int tail, int tip, double sl
   const fg__arc_sample *sample = search->samples->sample;
   double length = sample[tip].s - sample[tail].s;
   double turning = fabs(sample[tip].turning - sample[tail].turning);
-  const double longest = fg__territory_longest(search->interior->window->territory);
+  const double longest = fg__territory_longest(search->interior->territory);
   return length > slim * rolled_up(turning) || turning > FG__LARGEST_TURNING ||
          length > longest;
 }
@@ -288,7 +288,7 @@ static void try_width(arrow_search *search, double width, double end_gap)
   double ratio = width > search->narrowest ? LARGEST_WIDTH : SMALL_ARROW_WIDTH;
   double least = fmax(SHORTEST * search->interior->spacing, width / ratio);
   double slim = width / SLIMMEST, most = slim * search->rolled_up;
-  most = fmin(most, fg__territory_longest(search->interior->window->territory));
+  most = fmin(most, fg__territory_longest(search->interior->territory));
   double weight = pow(width / search->interior->spacing, FG__WIDTH_EXPONENT);
   if (fmin(most, total) * weight <= search->score)
     return;
@@ -324,7 +324,7 @@ fg_status fg__arrow_fit(fg__arrow *out, fg_context *context,
   double length = fg__streamline_length(streamline);
   if (length < SHORTEST * interior->spacing)
     return FG_STATUS_OK;
-  length = fmin(length, fg__territory_longest(interior->window->territory));
+  length = fmin(length, fg__territory_longest(interior->territory));
   double widest = fg__arrow_widest(length, interior);
   fg_status status = fg__arc_samples_place_flat(samples, context, streamline, interior,
                                                 widest * FG__HEAD_WIDTH / 2 / HEAD_SHARE);

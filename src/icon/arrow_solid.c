@@ -127,7 +127,7 @@ fg_status fg__arrow_fit_solid(fg__arrow *out, fg_context *context,
   for (int i = 0; i < samples->count; i++)
     deepest = fmax(deepest, samples->sample[i].clearance);
   double least = LEAST_HEAD * interior->spacing / FG__SOLID_HEAD_WIDTH;
-  const double most = fmin(length, fg__territory_longest(interior->window->territory));
+  const double most = fmin(length, fg__territory_longest(interior->territory));
   double width = fmin(WIDEST * most, 2 * deepest / FG__SOLID_HEAD_WIDTH);
   for (; width >= least; width *= NARROWER) {
     if (length * pow(width, FG__WIDTH_EXPONENT) <= best)

@@ -32,7 +32,7 @@ static fg__arrow fit(fg__streamline_node node[], double free)
     distance[n] = free;
   const fg__window window = {
       .dimension = 3, .nodes = {SIDE, SIDE, SIDE}, .spacing = {1.0, 1.0, 1.0}};
-  const fg__interior interior = {&window, distance, 0.03, 0.0};
+  const fg__interior interior = {&window, distance, 0.03, 0.0, NULL};
   const fg__streamline line = {
       .dimension = 3, .node = node, .count = STRAIGHT + HOOK + 1};
   fg__arc_samples samples = {0};

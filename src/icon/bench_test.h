@@ -120,8 +120,7 @@ static inline void judge(const test_bench *bench, const fg_icon *icon, depth_of 
   assert_true(length >= 3 * SHAPE_SPACING);
   assert_true(icon->head_width >= 1.2 * SHAPE_SPACING);
   assert_true(icon->width < 0.1 * length && icon->tail_width < icon->width);
-  assert_true(icon->width >=
-              0.003 * length); /* no thread, rings and long ones included */
+  assert_true(icon->width >= 0.003 * length); /* a hairline of a thin cluster */
   double nearest = HUGE_VAL;
   for (int i = 0; i < icon->point_count; i++) {
     nearest = fmin(nearest, hypot(icon->points[i][0] - icon->center[0],

@@ -24,7 +24,7 @@ static const double WIDTH_EXPONENT = 0.25;
  * the distance from the middle of the spine to the boundary. */
 static const double PASSED = 0.2;
 
-/* A cluster is thin whose spine is longer than so many of its widths. */
+/* A cluster is thin whose spine is longer than THIN times its width. */
 static const double THIN = 3.0;
 
 /* Of an arrow to the ends of its line: the largest width over the largest length, and the
@@ -95,7 +95,7 @@ static fg_status collect_points(const fg__choice *choice)
 
 static const fg__territory *territory_of(const fg__choice *choice)
 {
-  return choice->interior->window->territory;
+  return choice->interior->territory;
 }
 
 /* Root of the mean square distance from the cluster's points to a part of the line just
@@ -161,7 +161,7 @@ bool fg__choice_has_passed(const fg__choice *choice, const double point[2])
 
 double fg__stretched_length(const fg__interior *interior, const fg__spine *spine)
 {
-  const fg__territory *territory = interior->window->territory;
+  const fg__territory *territory = interior->territory;
   const double width = 2.0 * fg__interior_distance(interior, spine->middle);
   if (territory)
     return territory->longest;

@@ -7,6 +7,7 @@
 
 /* What choices work with, to be kept from cluster to cluster; all zero at first. */
 typedef struct fg__chooser {
+  const struct fg__territory *territory; /* whose windows it gets; NULL: clusters' */
   fg__streamline best, tried;
   fg__arc_samples samples;
   double (*point)[3]; /* of the cluster, evenly distributed */

@@ -53,7 +53,6 @@ static fg_status make_icons(icon_job *job, fg_context *context, fg__chooser *cho
     status =
         fg__window_divide(part, &parts, context, source->density, source->labels, &whole);
   for (int k = 0; k < parts && status == FG_STATUS_OK; k++) {
-    part[k].window.territory = source->territory;
     status = fg__icon_make(&icon[k], context, chooser, field_of(source, index),
                            &part[k].window);
     icon[k].area = source->labels->area[cluster - 1] * part[k].share;
@@ -69,7 +68,7 @@ static void work(void *argument, const fg__thread *thread)
 {
   icon_worker *worker = &((icon_worker *)argument)[thread->index];
   icon_job *job = worker->job;
-  fg__chooser chooser = {0};
+  fg__chooser chooser = {.territory = job->source->territory};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
     int index = atomic_fetch_add(&job->next, 1);
     if (index >= job->source->count)

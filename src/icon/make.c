@@ -18,11 +18,12 @@ static const double MARGIN = 0.35;
 static const double TEST_SPACING = 0.25;
 enum { EDGE_BLOCK = 12 };
 
-/* An arrow that does not lie inside is made this much smaller, up to so many times. */
+/* An arrow that does not lie inside is made this much smaller, up to ATTEMPTS times. */
 static const double SMALLER_FLAT = 0.9, SMALLER_SOLID = 0.93;
+enum { ATTEMPTS = 12 };
+
 /* In 2D the least width over the length: slimmer ones are hairlines in print. */
 static const double SLIMMEST = 0.003;
-enum { ATTEMPTS_FLAT = 12, ATTEMPTS_SOLID = 12 };
 
 static bool edge_is_inside(const fg__interior *interior, const double a[2],
                            const double b[2])
@@ -173,8 +174,7 @@ static fg_status shape(fg_icon *icon, fg_context *context, const fg__interior *i
   bool flat = line->dimension == 2, sound = false;
   double smaller = flat ? SMALLER_FLAT : SMALLER_SOLID;
   fg_status status = FG_STATUS_OK;
-  const int attempts = flat ? ATTEMPTS_FLAT : ATTEMPTS_SOLID;
-  for (int i = 0; i < attempts && !sound; i++) {
+  for (int i = 0; i < ATTEMPTS && !sound; i++) {
     if (flat && arrow.width < SLIMMEST * (arrow.tip - arrow.tail))
       break;
     double(*points)[3] = NULL;
@@ -252,7 +252,8 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
   if (!distance)
     return fg__fail_memory(context, "a distance map", nodes * sizeof *distance);
   double spacing = fg__window_spacing(window);
-  const fg__interior interior = {window, distance, spacing, MARGIN * spacing};
+  const fg__interior interior = {window, distance, spacing, MARGIN * spacing,
+                                 chooser->territory};
   /* the domain's boundary counts: an arrow there needs clearance for its head as well */
   fg_status status = fg__march(distance, context, window, true);
   if (status == FG_STATUS_OK)
@@ -264,7 +265,7 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
     fg__arrow whole = arrow;
     if (stretched > 0.0)
       fg__arrow_stretch(&whole, &chooser->best, stretched, interior.margin);
-    /* an arrow to the ends of its line stays long as long as it can */
+    /* that to the ends of its line becomes slimmer rather than shorter */
     const struct {
       const fg__arrow *arrow;
       double shorter;

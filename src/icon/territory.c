@@ -9,16 +9,16 @@
 
 /* Fast marching of first order (Sethian, "A fast marching level set method for
  * monotonically advancing fronts", PNAS 93, 1996), twice: from all clusters at once to
- * the borders where their fronts meet, and from these borders back. */
+ * the boundaries where their fronts meet, and from these boundaries back. */
 
-/* Between the icons' outlines and a border, in mean extents, and at least so many cells:
+/* Between the icons' outlines and a boundary: GAP mean extents, and LEAST_GAP cells, for
  * territories must not touch on the grid. */
 static const double GAP = 0.05, LEAST_GAP = 1.0;
 
-/* An arrow is not longer than so many mean extents. */
+/* An arrow is not longer than LONGEST mean extents. */
 static const double LONGEST = 3.0;
 
-/* A border or a zero set nearer to a node than this share of an edge counts as that far
+/* A boundary or a zero set nearer to a node than this share of an edge counts as that far
  * away. */
 static const double NEAREST = 1e-3;
 
@@ -27,7 +27,7 @@ typedef struct march {
   const int *label;
   size_t nodes;
   int *owner;   /* [nodes] the cluster whose front comes first; 0: none comes */
-  double *time; /* [nodes] when it does; then the way to the border */
+  double *time; /* [nodes] when it does; then the way to the boundary */
   bool within;  /* fronts stay in the territories */
   fg__heap heap;
 } march;
@@ -146,7 +146,7 @@ static double front_at(const march *m, size_t node, int cluster)
 }
 
 /* Offers the front at a node to its neighbours. False: no memory. */
-static bool spread(march *m, size_t node)
+static bool propagate(march *m, size_t node)
 {
   const int cluster = m->owner[node];
   int at[3];
@@ -173,18 +173,18 @@ static bool run(march *m)
   bool room = true;
   for (size_t n = 0; n < m->nodes && room; ++n)
     if (m->time[n] < HUGE_VAL)
-      room = spread(m, n);
+      room = propagate(m, n);
   while (room && m->heap.count > 0) {
     const fg__heap_entry next = fg__heap_pop(&m->heap);
     if (next.key <= m->time[next.index])
-      room = spread(m, (size_t)next.index);
+      room = propagate(m, (size_t)next.index);
   }
   return room;
 }
 
-/* The way from a node to the border of its territory, beside which it lies: half of what
- * the nearest other front comes later. */
-static double way_to_border(const march *m, size_t node)
+/* The way from a node to the boundary of its territory, beside which it lies: half of the
+ * time by which the nearest other front is later. */
+static double way_to_boundary(const march *m, size_t node)
 {
   double way = HUGE_VAL;
   int at[3];
@@ -201,14 +201,14 @@ static double way_to_border(const march *m, size_t node)
   return way;
 }
 
-/* Sets m->time to the ways to the borders. */
+/* Sets m->time to the ways to the boundaries. */
 static bool march_back(march *m)
 {
   double *way = fg__allocate(m->nodes, sizeof *way);
   if (!way)
     return false;
   for (size_t n = 0; n < m->nodes; ++n)
-    way[n] = m->owner[n] > 0 ? way_to_border(m, n) : HUGE_VAL;
+    way[n] = m->owner[n] > 0 ? way_to_boundary(m, n) : HUGE_VAL;
   free(m->time);
   m->time = way;
   m->within = true;

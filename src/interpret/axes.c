@@ -53,13 +53,15 @@ static void unwrap(double *x, size_t count)
   }
 }
 
-static void reverse(double *x, size_t count)
+void fg__grid_axis_flip(fg__grid_axis *axis)
 {
-  for (size_t i = 0; i < count / 2; ++i) {
+  double *x = axis->coordinate;
+  for (size_t i = 0, k = axis->size - 1; i < k; ++i, --k) {
     const double swapped = x[i];
-    x[i] = x[count - 1 - i];
-    x[count - 1 - i] = swapped;
+    x[i] = x[k];
+    x[k] = swapped;
   }
+  axis->reversed = !axis->reversed;
 }
 
 static bool check_coordinates(fg__grid *grid, const double *x, size_t count,
@@ -186,9 +188,9 @@ fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
     return status;
   if (is_longitude(axis))
     unwrap(axis->coordinate, axis->size);
-  axis->reversed = axis->coordinate[axis->size - 1] < axis->coordinate[0];
-  if (axis->reversed)
-    reverse(axis->coordinate, axis->size);
+  axis->reversed = false;
+  if (axis->coordinate[axis->size - 1] < axis->coordinate[0])
+    fg__grid_axis_flip(axis);
   if (check_order(grid, axis->coordinate, axis->size, axis->reversed, coordinate->name) &&
       is_longitude(axis))
     close_circle(axis);

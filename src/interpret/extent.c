@@ -16,7 +16,7 @@ static const double ROUNDING = 0.01;
 
 typedef struct extent {
   double low, width; /* in degrees; longitudes go round */
-  double said[2];
+  double stated[2];  /* in the file's units */
   bool is_longitude;
 } extent;
 
@@ -42,13 +42,13 @@ static bool read_extent(extent *out, const fg__variable *of, bool is_longitude)
   const double most = is_longitude ? 540.0 : 90.0;
   char units[FG__TEXT_BYTES];
   fg__unit unit;
-  if (!read_number(&out->said[0], file, name[0]) ||
-      !read_number(&out->said[1], file, name[1]))
+  if (!read_number(&out->stated[0], file, name[0]) ||
+      !read_number(&out->stated[1], file, name[1]))
     return false;
   fg__attribute_text(file, name[2], units, sizeof units);
   fg__unit_read(&unit, units);
   const double degree = unit.quantity == FG__QUANTITY_RADIANS ? 1.0 / FG__RADIANS : 1.0;
-  const double a = degree * out->said[0], b = degree * out->said[1];
+  const double a = degree * out->stated[0], b = degree * out->stated[1];
   if (!(fmax(fabs(a), fabs(b)) <= most + ROUNDING) || !(a < b || a > b))
     return false;
   out->low = is_longitude ? a : fmin(a, b);
@@ -91,13 +91,14 @@ static void check_stated(fg__grid *grid, const fg__variable *of, const double *v
     fg__set_unusable(grid->unusable,
                      "%ss are %g to %g by coordinates, and %g to %g by geospatial_%s_min "
                      "and geospatial_%s_max",
-                     name, least, largest, e.said[0], e.said[1], short_name, short_name);
+                     name, least, largest, e.stated[0], e.stated[1], short_name,
+                     short_name);
     snprintf(grid->hint, sizeof grid->hint, "--scale geo takes the coordinates");
   } else if (outside > 0) {
     fg__doubt(grid->doubts,
               "%zu of %zu %ss lie outside %g to %g, which geospatial_%s_min and "
               "geospatial_%s_max state",
-              outside, all, name, e.said[0], e.said[1], short_name, short_name);
+              outside, all, name, e.stated[0], e.stated[1], short_name, short_name);
   }
 }
 
@@ -130,7 +131,9 @@ static fg_status check_bounds(fg__grid *grid, const fg__dataset *data,
     return fg__fail_memory(data->context, "bounds", 2 * n * sizeof *edge);
   const fg_status status = fg__variable_fetch(bounds, start, count, edge);
   const fg__packing p = fg__packing_of(bounds);
-  const double unit = fg__attribute_find(bounds, "units") ? 1.0 : fg__degrees_per_unit(v);
+  const bool scaled =
+      fg__attribute_find(bounds, "units") && bounds->geographic != FG__NO_ROLE;
+  const double unit = scaled ? 1.0 : fg__degrees_per_unit(v);
   size_t outside = 0;
   for (size_t i = 0; i < n && status == FG_STATUS_OK; ++i) {
     const double a = unit * (edge[2 * i] * p.scale + p.offset),

@@ -434,9 +434,11 @@ static fg_status find_grid(fg__grid *grid, const fg__dataset *data, const fg__pa
   for (int k = 0; k < 2 && is_usable(grid); ++k)
     fg__check_dimensions(grid, data, pair->component[k]);
   int position[FG__ROLES];
-  if (is_usable(grid) && !grid->unstructured &&
-      fg__section_along(position, data, pair->component[0]) >= 0)
-    return fg__section_find(grid, data, pair, options);
+  const int along = is_usable(grid) && !grid->unstructured
+                        ? fg__section_along(position, data, pair->component[0])
+                        : -1;
+  if (along >= 0)
+    return fg__section_find(grid, data, pair, options, along, position);
   if (options->scale == FG_SCALE_LOG)
     fg__set_unusable(grid->unusable, "--scale log is for vertical sections");
   if (is_usable(grid) && !grid->unstructured)

@@ -234,6 +234,9 @@ void fg__call_geographic(fg__grid_axis *axis, int k);
  * latitudes, by their numbers. */
 void fg__check_axes_in_degrees(fg__grid *grid);
 
+/* axes.c. Puts the coordinates of an axis, and its samples, in the opposite order. */
+void fg__grid_axis_flip(fg__grid_axis *axis);
+
 /* Whether an axis counts from 0 or 1, as sample numbers do. */
 bool fg__counts_samples(const fg__grid_axis *axis);
 
@@ -292,7 +295,7 @@ fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,
                               const fg__variable *u);
 
 /* section.c. Whether a variable lies in a vertical plane: along levels and longitude or x
- * (0), or latitude or y (1); -1: it does not. */
+ * (0), or latitude or y (1); -1: it does not. Sets the positions of its roles. */
 int fg__section_along(int position[FG__ROLES], const fg__dataset *data,
                       const fg__variable *v);
 
@@ -300,10 +303,12 @@ int fg__section_along(int position[FG__ROLES], const fg__dataset *data,
  * along the vertical, where there is one. */
 void fg__section_settle(fg__pair *pair, const fg__dataset *data);
 
-/* Finds the grid of such a pair. Its levels become coordinates that grow upwards, on the
- * scale of the other axis (terms/measure.h). MEMORY, FILE_ACCESS. */
+/* Finds the grid of such a pair, by what fg__section_along has found of its first
+ * component. Its levels become coordinates that grow upwards, on the scale of the other
+ * axis (terms/measure.h). MEMORY, FILE_ACCESS. */
 fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
-                           const fg_read_options *options);
+                           const fg_read_options *options, int along,
+                           const int position[FG__ROLES]);
 
 /* volume.c. Makes the grid of the first two components three-dimensional when there is a
  * third component, all levels form one axis in space, and the axes have one unit. Where

@@ -4,6 +4,7 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "interpret/interpret.h"
+#include "terms/frame.h"
 #include "terms/measure.h"
 #include "terms/names.h"
 #include "terms/text.h"
@@ -15,8 +16,8 @@
 
 static const double EARTH_RADIUS = 6371000.0; /* metres */
 
-/* A section is drawn in its true proportions where neither side is longer than this many
- * times the other, else twice as wide as high. */
+/* A section is drawn in its true proportions where neither side is longer than
+ * TRUE_ASPECT times the other, else ASPECT times as wide as high. */
 static const double TRUE_ASPECT = 4.0, ASPECT = 2.0;
 
 int fg__section_along(int position[FG__ROLES], const fg__dataset *data,
@@ -45,15 +46,21 @@ static void read_unit(fg__unit *unit, const fg__variable *v)
   fg__unit_read(unit, text);
 }
 
+static bool is_tendency(const fg__variable *w)
+{
+  fg__unit unit;
+  read_unit(&unit, w);
+  return unit.quantity == FG__QUANTITY_PRESSURE_TENDENCY;
+}
+
 /* Whether a component is along the vertical, in the unit that goes with the levels. */
 static bool is_upward(const fg__variable *v, const fg__variable *levels)
 {
   const fg__term term = fg__term_of(v);
-  fg__unit unit, of_levels;
-  read_unit(&unit, v);
+  fg__unit of_levels;
   read_unit(&of_levels, levels);
-  return fg__is_vertical(&term) && (of_levels.quantity == FG__QUANTITY_PRESSURE) ==
-                                       (unit.quantity == FG__QUANTITY_PRESSURE_TENDENCY);
+  return fg__is_vertical(&term) &&
+         (of_levels.quantity == FG__QUANTITY_PRESSURE) == is_tendency(v);
 }
 
 /* The only such component on the dimensions of another; NULL: none, or several. */
@@ -108,14 +115,18 @@ static bool find_place(double *out, const fg__dataset *data, fg__role role)
 
 /* Metres of a horizontal coordinate's unit; 0: it has none of a length. */
 static double metres_along(fg__grid *grid, const fg__dataset *data,
-                           const fg__variable *coordinate)
+                           const fg__variable *coordinate, const fg__variable *u)
 {
   const double degree = EARTH_RADIUS * FG__RADIANS;
+  const fg__term of_u = fg__term_of(u);
   fg__unit unit;
   double latitude;
   read_unit(&unit, coordinate);
   if (coordinate->geographic == FG__ROLE_Y)
     return degree;
+  if (coordinate->geographic != FG__ROLE_X && fg__says_east(&of_u))
+    fg__doubt(grid->doubts, "'%.60s' points east, and is taken to be along '%.60s'",
+              u->plain_name, coordinate->plain_name);
   if (coordinate->geographic != FG__ROLE_X)
     return unit.quantity == FG__QUANTITY_LENGTH ? unit.factor : 0.0;
   if (find_place(&latitude, data, FG__ROLE_Y) && fabs(latitude) < 90.0) {
@@ -141,7 +152,7 @@ static int direction_of(fg__grid *grid, const fg__variable *levels)
   fg__attribute_text(levels, "positive", positive, sizeof positive);
   fg__attribute_text(levels, "standard_name", name, FG__TEXT_BYTES);
   snprintf(name + strlen(name), FG__TEXT_BYTES, " %s", levels->plain_name);
-  const bool depth = fg__contains_any(name, "depth|deptht|depthw"),
+  const bool depth = fg__contains_any(name, "depth"),
              below = z->coordinate[z->size - 1] <= 0.0;
   if (strcmp(positive, "down") == 0 && below && z->coordinate[0] < 0.0)
     fg__set_unusable(grid->unusable,
@@ -193,8 +204,8 @@ static void check_components(fg__grid *grid, const fg__dataset *data,
   static const char *const called[] = {"east", "north"}, *const usual[] = {"U", "V"};
   const fg__variable *u = pair->component[0], *w = pair->component[1];
   const fg__term of_u = fg__term_of(u), of_w = fg__term_of(w);
-  const char *said = of_u.standard_name ? of_u.standard_name : of_u.name;
-  int points = fg__component_in_words(said);
+  int points =
+      fg__component_in_words(of_u.standard_name ? of_u.standard_name : of_u.name);
   if (points < 0 && !of_u.standard_name && !fg__component_of_name(&points, of_u.name))
     points = -1;
   if (pair->component[2])
@@ -210,6 +221,9 @@ static void check_components(fg__grid *grid, const fg__dataset *data,
                      "a vertical section along '%.60s', and nothing says that '%.60s' is "
                      "along the vertical",
                      grid->axis[0].name, w->plain_name);
+  else if (!is_tendency(w) && of_w.long_name && fg__counts_downward(of_w.long_name) > 0)
+    fg__set_unusable(grid->unusable, "'%.60s' counts downwards by its long name '%.80s'",
+                     w->plain_name, of_w.long_name);
   else
     return;
   const fg__variable *up = find_upward(data, u, level);
@@ -219,8 +233,10 @@ static void check_components(fg__grid *grid, const fg__dataset *data,
            points >= 0 && points != along ? usual[along] : u->name, up ? up->name : "W");
 }
 
-/* Replaces the levels by coordinates that grow upwards, on the scale of the other axis.
- * rate: of a level to a component along it, both upwards if positive. */
+/* Replaces the levels by coordinates that grow upwards, on the scale of the other axis,
+ * and sets the rates. proportion: how many units of the levels are as long as one of the
+ * other axis; infinite: none are. ratio: what the component's unit is, in units of the
+ * other component, on a plane whose unit is that of the levels. */
 static fg_status lay_out(fg__grid *grid, const fg__dataset *data, int direction,
                          double proportion, double ratio, bool logarithmic)
 {
@@ -233,11 +249,10 @@ static fg_status lay_out(fg__grid *grid, const fg__dataset *data, int direction,
   double height = at[n - 1] - at[0];
   if (logarithmic)
     height = log10(at[n - 1] / at[0]);
-  /* in units of the levels a unit of x is */
   const double aspect = width * proportion / height;
   const bool is_true = !logarithmic && aspect < TRUE_ASPECT && aspect > 1.0 / TRUE_ASPECT;
-  const double unit = is_true ? proportion : height * ASPECT / width;
-  fg__number_round(factor, direction * unit, is_true ? 17 : 2);
+  fg__number_round(factor, direction * (is_true ? proportion : height * ASPECT / width),
+                   is_true ? 17 : 2);
   const char *end;
   const double step = fg__number_read(factor, &end);
   fg__number_write(factor, step);
@@ -245,12 +260,7 @@ static fg_status lay_out(fg__grid *grid, const fg__dataset *data, int direction,
   if (!grid->rate)
     return fg__fail_memory(data->context, "an axis", n * sizeof *grid->rate);
   if (direction < 0)
-    for (size_t i = 0; i < n / 2; ++i) {
-      const double swapped = at[i];
-      at[i] = at[n - 1 - i];
-      at[n - 1 - i] = swapped;
-    }
-  z->reversed = z->reversed != (direction < 0);
+    fg__grid_axis_flip(z);
   for (size_t i = 0; i < n; ++i) {
     grid->rate[i] = ratio / step / (logarithmic ? at[i] * log(10.0) : 1.0);
     at[i] = (logarithmic ? log10(at[i]) : at[i]) / step;
@@ -263,12 +273,12 @@ static fg_status lay_out(fg__grid *grid, const fg__dataset *data, int direction,
   return FG_STATUS_OK;
 }
 
+/* Says how the vertical component is drawn. */
 static void tell_ratio(fg__grid *grid, const fg__pair *pair, bool logarithmic)
 {
   fg__unit u, w;
   read_unit(&u, pair->component[0]);
   read_unit(&w, pair->component[1]);
-  const bool tendency = w.quantity == FG__QUANTITY_PRESSURE_TENDENCY;
   double rate = fabs(grid->rate[0]);
   if (u.quantity == w.quantity && w.factor > 0.0)
     rate *= u.factor / w.factor;
@@ -277,7 +287,7 @@ static void tell_ratio(fg__grid *grid, const fg__pair *pair, bool logarithmic)
   const char *const before = grid->section[0] ? "; " : "";
   if (logarithmic)
     snprintf(out, size, "%svertical component in the axes' ratio", before);
-  else if (tendency)
+  else if (is_tendency(pair->component[1]))
     snprintf(out, size, "%svertical: 1 %.40s drawn as %.2g %.40s", before, w.label, rate,
              u.label);
   else if (fabs(rate - 1.0) > 1e-6)
@@ -309,16 +319,13 @@ static fg_status read_axes(fg__grid *grid, const fg__dataset *data, const fg__va
 }
 
 fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
-                           const fg_read_options *options)
+                           const fg_read_options *options, int along,
+                           const int position[FG__ROLES])
 {
   const fg__variable *u = pair->component[0];
   const bool plain = options->scale == FG_SCALE_PLAIN,
              logarithmic = options->scale == FG_SCALE_LOG;
-  int position[FG__ROLES] = {-1, -1, -1, -1};
-  const int along = fg__section_along(position, data, u),
-            level = position[FG__ROLE_LEVEL];
-  if (along < 0 || level < 0)
-    return FG_STATUS_OK;
+  const int level = position[FG__ROLE_LEVEL];
   grid->scale = FG_SCALE_PLAIN;
   grid->time = position[FG__ROLE_TIME];
   fg__check_storage(grid, data, u);
@@ -329,8 +336,8 @@ fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pa
   fg_status status = read_axes(grid, data, u, (int[2]){position[along], level});
   if (status != FG_STATUS_OK || grid->unusable[0])
     return status;
-  const fg__variable *levels = fg__coordinate(data, u, level);
-  const int direction = direction_of(grid, levels);
+  const fg__variable *x = fg__coordinate(data, u, position[along]);
+  const int direction = direction_of(grid, fg__coordinate(data, u, level));
   double ratio = 1.0, across = 1.0;
   fg__unit unit;
   fg__unit_read(&unit, grid->axis[1].units);
@@ -339,7 +346,7 @@ fg_status fg__section_find(fg__grid *grid, const fg__dataset *data, const fg__pa
   if (!plain && !grid->unusable[0])
     ratio = component_ratio(grid, pair);
   if (!plain && !grid->unusable[0])
-    across = metres_along(grid, data, fg__coordinate(data, u, position[along]));
+    across = metres_along(grid, data, x, u);
   if (across == 0.0)
     fg__set_unusable(grid->unusable, "'%.60s' has no unit of a length or of degrees",
                      grid->axis[0].name);

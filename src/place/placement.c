@@ -9,8 +9,7 @@
 #include <string.h>
 
 /* Where the flow crosses a thin domain all lines are short, and few arrows have long
- * ones: they become smaller while those that would fill the domain are at most so many.
- */
+ * ones: they become smaller as long as FEW_IN_ALL of them would fill the domain. */
 static const double FEW_IN_ALL = 10000.0;
 
 struct fg_placement {
@@ -167,7 +166,7 @@ static fg_status place(fg_placement *placement, int count, const fg_icons *clust
   return status;
 }
 
-/* So many arrows and halvings of their length leave the rasters small. */
+/* Whether arrows of half the length leave the rasters small. */
 static bool may_be_smaller(const fg__place_domain *domain, int count)
 {
   return count <= fg__descent_most(domain) &&

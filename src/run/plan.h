@@ -22,9 +22,9 @@ void fg__plan_start_placed(fg__plan *plan, const int *list, int count, int dimen
 
 void fg__plan_start_timed(fg__plan *plan, const double *times, int count);
 
-/* Says how many wanted numbers the state with `clusters` clusters is the first at or
- * below; 0: it is no scale. One state is one scale, however many numbers it passes at
- * once. `clusters` 0 means that nucleation still goes on, which matters to numbers only.
+/* Says how many wanted numbers of clusters a state is the first at or below, or how many
+ * times it is the first at or after; 0: it is no scale. One state is one scale, however
+ * many it passes at once. Without clusters, while phases separate, it reaches no number.
  */
 int fg__plan_reach(fg__plan *plan, const fg_step *step);
 

@@ -4,30 +4,51 @@
 #include "icon/icons.h"
 #include "run/run_test.h"
 
+/* A run, and its evolution without it. */
+typedef struct comparison {
+  fg_field *field;
+  fg_run *run;
+  fg_evolution *evolution;
+} comparison;
+
+static comparison compare(fg_context *context, const fg_run_options *options)
+{
+  comparison c = {.field = field_of(context, "vortex3")};
+  c.run = run_of(context, c.field, options);
+  assert_int_equal(
+      fg_evolution_create(&c.evolution, context, c.field, &options->evolution),
+      FG_STATUS_OK);
+  return c;
+}
+
+static void end_comparison(comparison *c)
+{
+  assert_int_equal(fg_run_ended(c->run), FG_RUN_ALL);
+  fg_evolution_destroy(c->evolution);
+  fg_run_destroy(c->run);
+  fg_field_destroy(c->field);
+}
+
 /* Clusters: each scale is the first state at or below its number, with the icons of its
  * density. */
 static void clusters_are_those_of_the_evolution(void **state)
 {
   static const int numbers[] = {40, 25, 24, 9};
   fg_context *context = *state;
-  fg_field *field = field_of(context, "vortex3");
   const fg_run_options options = {.kind = FG_RUN_CLUSTERS,
                                   .numbers = numbers,
                                   .count = 4,
                                   .evolution = {.nodes = 129, .seed = 5}};
-  fg_run *run = run_of(context, field, &options);
-  fg_evolution *evolution = NULL;
-  assert_int_equal(fg_evolution_create(&evolution, context, field, &options.evolution),
-                   FG_STATUS_OK);
+  comparison c = compare(context, &options);
   const fg_run_scale *scale;
   fg_step step = {0};
   int answered = 0, scales = 0;
   for (;;) {
-    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    assert_int_equal(fg_run_next(&scale, c.run), FG_STATUS_OK);
     if (!scale)
       break;
     while (!step.clusters || step.clusters > numbers[answered])
-      assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+      assert_int_equal(fg_evolution_step(c.evolution, &step), FG_STATUS_OK);
     assert_int_equal(scale->index, scales++);
     assert_int_equal(scale->step.step, step.step);
     for (int k = 0; k < scale->wanted_count; ++k)
@@ -35,8 +56,8 @@ static void clusters_are_those_of_the_evolution(void **state)
     assert_true(answered == 4 || step.clusters > numbers[answered]);
     fg_density *density = NULL;
     fg_icons *icons = NULL;
-    assert_int_equal(fg_density_create(&density, evolution), FG_STATUS_OK);
-    assert_int_equal(fg_icons_create(&icons, context, field, density, NULL),
+    assert_int_equal(fg_density_create(&density, c.evolution), FG_STATUS_OK);
+    assert_int_equal(fg_icons_create(&icons, context, c.field, density, NULL),
                      FG_STATUS_OK);
     same_icons(scale->icons, icons);
     assert_int_equal(fg_density_contents(scale->density)->clusters, step.clusters);
@@ -45,10 +66,7 @@ static void clusters_are_those_of_the_evolution(void **state)
     fg_density_destroy(density);
   }
   assert_int_equal(answered, 4);
-  assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
-  fg_evolution_destroy(evolution);
-  fg_run_destroy(run);
-  fg_field_destroy(field);
+  end_comparison(&c);
 }
 
 /* Times: each scale is the first state at or after its time, also before there are
@@ -57,25 +75,20 @@ static void times_are_those_of_the_evolution(void **state)
 {
   static const double times[] = {1e-6, 4e-3, 1.4e-2, 1.401e-2, 3e-2};
   static const int reached[] = {1, 1, 2, 1};
-  fg_context *context = *state;
-  fg_field *field = field_of(context, "vortex3");
   const fg_run_options options = {.kind = FG_RUN_TIMES,
                                   .times = times,
                                   .count = 5,
                                   .evolution = {.nodes = 65, .noise = 0.02}};
-  fg_run *run = run_of(context, field, &options);
-  fg_evolution *evolution = NULL;
-  assert_int_equal(fg_evolution_create(&evolution, context, field, &options.evolution),
-                   FG_STATUS_OK);
+  comparison c = compare(*state, &options);
   const fg_run_scale *scale;
   fg_step step = {0};
   for (int k = 0, next = 0; k < 4; next += reached[k++]) {
     double before = 0.0;
     while (step.time < times[next]) {
       before = step.time;
-      assert_int_equal(fg_evolution_step(evolution, &step), FG_STATUS_OK);
+      assert_int_equal(fg_evolution_step(c.evolution, &step), FG_STATUS_OK);
     }
-    assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+    assert_int_equal(fg_run_next(&scale, c.run), FG_STATUS_OK);
     assert_int_equal(scale->index, k);
     assert_int_equal(scale->step.step, step.step);
     assert_true(before < times[next]);
@@ -85,12 +98,9 @@ static void times_are_those_of_the_evolution(void **state)
     assert_int_equal(fg_icons_count(scale->icons) > 0, k > 1);
   }
   assert_true(step.clusters > 0);
-  assert_int_equal(fg_run_next(&scale, run), FG_STATUS_OK);
+  assert_int_equal(fg_run_next(&scale, c.run), FG_STATUS_OK);
   assert_null(scale);
-  assert_int_equal(fg_run_ended(run), FG_RUN_ALL);
-  fg_evolution_destroy(evolution);
-  fg_run_destroy(run);
-  fg_field_destroy(field);
+  end_comparison(&c);
 }
 
 /* Returns the step of the first scale. */

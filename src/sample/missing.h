@@ -43,8 +43,8 @@ void fg__extremes_add(fg__extremes *extremes, const fg__raw_samples *samples);
 bool fg__extremes_are_suspect(const fg__extremes *extremes, int components);
 
 /* Refuses a component where one number recurs that lies apart from all others, as -9999
- * or 1e20, unless none is missing: the message has its name, its
- * share and the option that decides. Of `samples` path and names count. ARGUMENT. */
+ * or 1e20, unless none is missing: the message has its name, its share and the option
+ * that decides. Of `samples` path and names count. ARGUMENT. */
 fg_status fg__missing_decide(fg_context *context, const fg__extremes *extremes,
                              const fg__raw_samples *samples,
                              const fg__missing_numbers *given);

@@ -150,8 +150,8 @@ refused() {
   expect_nothing_at refused
 }
 refused '--arrows and --clusters' --arrows 12 --clusters 3
-refused '--tolerance 20: .* --arrows' --arrows 12 --tolerance 20
-refused '--tolerance 20: .* --clusters' --clusters 12 --tolerance 20
+refused '--arrows and --tolerance' --arrows 12 --tolerance 20
+refused '--tolerance and --clusters' --clusters 12 --tolerance 20
 refused '--clusters and --times' --clusters 12 --times 1e-3
 refused '--arrows and --times' --arrows 12 --times 1e-3
 refused '--tolerance and --times' --tolerance 20 --times 1e-3
@@ -170,6 +170,7 @@ refused "'0' is no number of arrows" --arrows 5,0
 refused 'a number in \(0, 90\]' --tolerance 0
 refused 'clusters, even' --start middle
 refused '--skeletons' --arrows 5 --skeletons
+refused '--extent: of clusters' --arrows 5 --extent territory
 done_with "what can not be asked for"
 
 # the arrows are placed on one of them

@@ -52,23 +52,19 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
 static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
                           const double low[2], const double high[2])
 {
-  if (field->scale == FG_SCALE_GEO) {
-    fg__axis_of_degrees(&plan->axis[0], low[0], high[0], FG__TICKS_LONGITUDE);
-    fg__axis_of_degrees(&plan->axis[1], low[1], high[1], FG__TICKS_LATITUDE);
-    return;
-  }
+  const bool geo = field->scale == FG_SCALE_GEO;
   bool shared = strcmp(field->axis_units[0], field->axis_units[1]) == 0;
   double larger = fmax(high[0] - low[0], high[1] - low[1]);
-  for (int k = 0; k < 2; ++k)
-    if (strcmp(field->axis_units[k], "°E") == 0 ||
-        strcmp(field->axis_units[k], "°N") == 0)
-      fg__axis_of_degrees(&plan->axis[k], low[k], high[k],
-                          strcmp(field->axis_units[k], "°E") == 0 ? FG__TICKS_LONGITUDE
-                                                                  : FG__TICKS_LATITUDE);
+  for (int k = 0; k < 2; ++k) {
+    const char *units = field->axis_units[k];
+    if (geo ? k == 0 : strcmp(units, "°E") == 0)
+      fg__axis_of_degrees(&plan->axis[k], low[k], high[k], FG__TICKS_LONGITUDE);
+    else if (geo || strcmp(units, "°N") == 0)
+      fg__axis_of_degrees(&plan->axis[k], low[k], high[k], FG__TICKS_LATITUDE);
     else
       fg__axis_of_numbers(&plan->axis[k], low[k], high[k],
-                          shared ? larger : high[k] - low[k], field->axis_name[k],
-                          field->axis_units[k]);
+                          shared ? larger : high[k] - low[k], field->axis_name[k], units);
+  }
 }
 
 /* Lengths in kilometres on the ground, where a map has about one scale; elsewhere no key

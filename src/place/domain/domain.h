@@ -34,7 +34,7 @@ typedef struct fg__place_domain {
   double fast;             /* speed exceeded by a twentieth */
   double root_mean_square; /* of speeds up to the top */
   bool rests;              /* some of the domain is still */
-  bool slow;               /* most of the domain hardly moves, beside that */
+  bool slow;               /* more than half of the domain is (field/still.h) */
   bool dead;               /* and is a volume: speed weighs */
 } fg__place_domain;
 
@@ -67,7 +67,7 @@ const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain
 bool fg__place_moves(const fg__place_domain *domain, double speed);
 
 /* Whether it is in an arrow's mean speed: what is still is not, nor, where most of the
- * domain hardly moves, its noise. */
+ * domain is slow, its noise. */
 bool fg__place_has_speed(const fg__place_domain *domain, double speed);
 
 /* What a point counts in (0, 1], by its speed. */

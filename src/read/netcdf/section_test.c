@@ -111,6 +111,17 @@ static const situation SECTIONS[] = {
      .file = OCEAN(" :positive=down = 0 1000 2000"),
      .field = "axis 1 'depth' '-200 m'|y = -10 -5 0|at 10 -5 = 20 0.5|"
               "level 'vertical component × 5.0'|doubts ''|units 'cm/s'"},
+    {.what = "a velocity downwards",
+     .file = "z[3] :units=m :positive=up = 0 1 2; x[3] :units=m = 0 1 2;"
+             "u(z,x) :units=m/s = 2; w(z,x) :units=m/s :long_name=downward velocity = 1",
+     .options = {.vars = "u,w"},
+     .refused = "'w' counts downwards by its long name 'downward velocity'"},
+    {.what = "a component to the east along an axis of a projection",
+     .file = "z[3] :units=m :positive=up = 0 1 2; x[3] :units=m = 0 1 2;"
+             "u(z,x) :units=m/s :standard_name=eastward_wind = 2;"
+             "w(z,x) :units=m/s = 1",
+     .options = {.vars = "u,w"},
+     .field = "at 1 1 = 2 1|doubts ''u' points east, and is taken to be along 'x''"},
     {.what = "depths by their name alone",
      .file = OCEAN(" = 0 1000 2000"),
      .field = "axis 1 'depth' '-200 m'|at 10 -5 = 20 0.5|doubts ''"},
