@@ -48,6 +48,12 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
   };
 }
 
+fg_icon_options settings_icons(const run_settings *settings)
+{
+  static const fg_extent extents[] = {FG_EXTENT_CLUSTER, FG_EXTENT_TERRITORY};
+  return (fg_icon_options){.extent = extents[settings->extent], .threads = 1};
+}
+
 fg_run_options settings_run(const run_settings *settings)
 {
   bool placed = settings_place(settings), timed = settings->times.count > 0;

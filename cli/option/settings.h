@@ -95,7 +95,7 @@ typedef struct run_settings {
   int start;                    /* of a placement: clusters (0), even */
   int effort;                   /* fg_effort */
   int lengths;                  /* fg_lengths */
-  int extent;                   /* fg_extent */
+  int extent;                   /* as extent_words: cluster (0), territory */
   double max_time;
   int max_steps;
   unsigned formats; /* 0: the default, SVG and PNG, in 3D PNG */
@@ -220,6 +220,7 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
                                         const work_settings *work);
 fg_placement_options settings_placement(const run_settings *settings);
 fg_run_options settings_run(const run_settings *settings);
+fg_icon_options settings_icons(const run_settings *settings);
 fg_texture_options settings_texture(const texture_settings *settings);
 /* map: of the field; its region is shown whole. */
 fg_picture_options settings_picture(const picture_settings *settings,

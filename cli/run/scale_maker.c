@@ -163,7 +163,7 @@ static fg_status write_pictures(scale_maker *maker, int index,
 
 static fg_status make_icons(scale_maker *maker, scale_snapshot *snapshot)
 {
-  const fg_icon_options options = {.extent = (fg_extent)maker->settings->extent};
+  const fg_icon_options options = settings_icons(maker->settings);
   return fg_icons_create(&snapshot->icons, maker->context, maker->field,
                          snapshot->density, &options);
 }

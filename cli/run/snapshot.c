@@ -9,7 +9,7 @@
 static bool needs_all(const cli_run *run)
 {
   const run_settings *settings = run->settings;
-  if (settings->extent == FG_EXTENT_TERRITORY)
+  if (settings_icons(settings).extent == FG_EXTENT_TERRITORY)
     return true;
   if (scales_are_solid(run->field))
     return settings->picture.surfaces || settings_place(settings);
@@ -21,7 +21,9 @@ static fg_status make_icons(scale_snapshot *snapshot, fg_context *context,
                             const cli_run *run, const fg_density *shared)
 {
   double start = clock_seconds();
-  fg_status status = fg_icons_create(&snapshot->icons, context, run->field, shared, NULL);
+  const fg_icon_options options = settings_icons(run->settings);
+  fg_status status =
+      fg_icons_create(&snapshot->icons, context, run->field, shared, &options);
   snapshot->icon_seconds = clock_seconds() - start;
   return status;
 }

@@ -46,14 +46,15 @@ typedef struct fg_icon {
 
 /* Where an icon's arrow may reach. */
 typedef enum fg_extent {
-  FG_EXTENT_CLUSTER = 0, /* to the boundary of its cluster */
-  FG_EXTENT_TERRITORY    /* through the points that are nearer to its cluster than to any
-                            other: for three mean extents of a territory at most */
+  FG_EXTENT_BEST = 0, /* in its cluster, where it is seen best */
+  FG_EXTENT_CLUSTER,  /* the same; of a thin cluster in 2D to both ends of its line */
+  FG_EXTENT_TERRITORY /* through the points that are nearer to its cluster than to any
+                         other: for three mean extents of a territory at most */
 } fg_extent;
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_icon_options {
-  fg_extent extent; /* [CLUSTER] */
+  fg_extent extent; /* [BEST] */
   int threads;      /* the result does not depend on it [1] */
 } fg_icon_options;
 

@@ -159,14 +159,17 @@ bool fg__choice_has_passed(const fg__choice *choice, const double point[2])
   return false;
 }
 
-double fg__stretched_length(const fg__interior *interior, const fg__spine *spine)
+double fg__stretched_length(const fg__chooser *chooser, const fg__interior *interior,
+                            const fg__spine *spine)
 {
   const fg__territory *territory = interior->territory;
   const double width = 2.0 * fg__interior_distance(interior, spine->middle);
   if (territory)
     return territory->longest;
-  return interior->window->dimension == 2 && spine->length > THIN * width ? HUGE_VAL
-                                                                          : 0.0;
+  return chooser->to_ends && interior->window->dimension == 2 &&
+                 spine->length > THIN * width
+             ? HUGE_VAL
+             : 0.0;
 }
 
 void fg__arrow_stretch(fg__arrow *arrow, const fg__streamline *line, double longest,
@@ -277,7 +280,7 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
                        .interior = interior,
                        .radius = fg__interior_distance(interior, spine->middle),
                        .cost = HUGE_VAL};
-  choice.stretched = fg__stretched_length(interior, spine);
+  choice.stretched = fg__stretched_length(chooser, interior, spine);
   fg_status status = prepare(&choice, spine->length);
   if (status == FG_STATUS_OK)
     status = fg__choice_try_starts(&choice, spine);

@@ -8,6 +8,7 @@
 /* What choices work with, to be kept from cluster to cluster; all zero at first. */
 typedef struct fg__chooser {
   const struct fg__territory *territory; /* whose windows it gets; NULL: clusters' */
+  bool to_ends; /* arrows of thin clusters go to the ends of their lines */
   fg__streamline best, tried;
   fg__arc_samples samples;
   double (*point)[3]; /* of the cluster, evenly distributed */
@@ -27,9 +28,10 @@ fg_status fg__choose_arrow(fg__arrow *arrow, fg__chooser *chooser, fg_context *c
 void fg__chooser_clear(fg__chooser *chooser);
 
 /* How long an arrow becomes that shall reach to the ends of its line: in a territory, or
- * where the cluster is thin, by the distance from the spine's middle to its boundary; 0:
- * an arrow that is seen best is enough. */
-double fg__stretched_length(const fg__interior *interior, const fg__spine *spine);
+ * where the chooser says so and the cluster is thin, by the distance from the spine's
+ * middle to its boundary; 0: an arrow that is seen best is enough. */
+double fg__stretched_length(const fg__chooser *chooser, const fg__interior *interior,
+                            const fg__spine *spine);
 
 /* Lengthens an arrow to the ends of its line, to that length and the largest turning at
  * most and with a margin before each end, and slims a fat one. */

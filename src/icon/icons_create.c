@@ -19,6 +19,7 @@ typedef struct making {
   const fg_density *density;
   const fg__ranks *ranks;
   const fg__territory *territory;
+  bool to_ends;
   fg__labels labels;
   fg__wanted_patch *wanted; /* [labels.count] */
   fg_icon *icon; /* [labels.count * FG__ICON_PIECES] those of this rank; on rank
@@ -137,7 +138,8 @@ static fg_status make_own(making *s, fg_context *context, fg_field *const *windo
                             .labels = &s->labels,
                             .cluster = cluster,
                             .patch = patch,
-                            .territory = s->territory};
+                            .territory = s->territory,
+                            .to_ends = s->to_ends};
   if (!cluster || !patch || !icon || !own_window) {
     status = fg__fail_memory(context, "the icons", most * sizeof *icon);
     goto cleanup;
@@ -280,12 +282,13 @@ static fg_status allocate(making *s, fg_context *context)
 }
 
 static fg_status create(fg_icons **out, fg_context *context, const fg_field *field,
-                        const fg_density *density, int threads,
+                        const fg_density *density, const fg_icon_options *options,
                         const fg__territory *territory)
 {
   making s = {.field = field,
               .density = density,
               .territory = territory,
+              .to_ends = options->extent != FG_EXTENT_BEST,
               .ranks = fg__density_block_of(density)->partition.ranks};
   fg_status status = fg__field_check_shared(context, s.ranks, field);
   if (!status)
@@ -294,7 +297,7 @@ static fg_status create(fg_icons **out, fg_context *context, const fg_field *fie
     return status;
   status = fg__ranks_agree(s.ranks, context, allocate(&s, context));
   if (!status)
-    status = make_all(&s, context, threads);
+    status = make_all(&s, context, options->threads);
   if (!status)
     status = bring_together(&s, context);
   if (!status && s.ranks->rank == 0)
@@ -330,16 +333,16 @@ static fg_status add_icons(bool *added, fg_icons *to, fg_context *context,
 
 /* Icons of territories, and of clusters whose territories have none. */
 static fg_status create_wide(fg_icons **out, fg_context *context, const fg_field *field,
-                             const fg_density *density, int threads)
+                             const fg_density *density, const fg_icon_options *options)
 {
   fg_icons *own = NULL, *wide = NULL;
   fg_density *territories = NULL;
   fg__territory of = {.density = density};
   fg_status status = fg__territories_create(&territories, &of, context, density);
   if (!status)
-    status = create(&own, context, field, density, threads, NULL);
+    status = create(&own, context, field, density, options, NULL);
   if (!status)
-    status = create(&wide, context, field, territories, threads, &of);
+    status = create(&wide, context, field, territories, options, &of);
   if (!status)
     status = fg__icons_create_empty(out, context);
   int drawn = 0;
@@ -385,10 +388,10 @@ fg_status fg_icons_create(fg_icons **out, fg_context *context, const fg_field *f
                     "icons: a field that ranks share, of a density that they do not");
   fg__counters *counters = fg__density_block_of(density)->partition.ranks->counters;
   fg_phase before = fg__phase_continue(counters, FG_PHASE_SNAPSHOTS);
-  const int threads = options ? options->threads : 1;
-  fg_status status = options && options->extent == FG_EXTENT_TERRITORY
-                         ? create_wide(out, context, field, density, threads)
-                         : create(out, context, field, density, threads, NULL);
+  const fg_icon_options o = options ? *options : (fg_icon_options){.threads = 1};
+  fg_status status = o.extent == FG_EXTENT_TERRITORY
+                         ? create_wide(out, context, field, density, &o)
+                         : create(out, context, field, density, &o, NULL);
   fg__phase_return(counters, before);
   return status;
 }

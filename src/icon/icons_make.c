@@ -68,7 +68,8 @@ static void work(void *argument, const fg__thread *thread)
 {
   icon_worker *worker = &((icon_worker *)argument)[thread->index];
   icon_job *job = worker->job;
-  fg__chooser chooser = {.territory = job->source->territory};
+  fg__chooser chooser = {.territory = job->source->territory,
+                         .to_ends = job->source->to_ends};
   while (worker->status == FG_STATUS_OK && !atomic_load(&job->halted)) {
     int index = atomic_fetch_add(&job->next, 1);
     if (index >= job->source->count)

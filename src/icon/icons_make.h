@@ -16,6 +16,7 @@ typedef struct fg__icon_source {
   const fg__patch *patch; /* [count] */
   const struct fg__territory
       *territory; /* clusters are territories; NULL: they are not */
+  bool to_ends;   /* arrows of thin clusters go to the ends of their lines */
 } fg__icon_source;
 
 /* Places for a cluster's icons: one across a periodic boundary may have several. */

@@ -18,9 +18,10 @@ static const double MARGIN = 0.35;
 static const double TEST_SPACING = 0.25;
 enum { EDGE_BLOCK = 12 };
 
-/* An arrow that does not lie inside is made this much smaller, up to ATTEMPTS times. */
+/* An arrow that does not lie inside is made this much smaller, up to ATTEMPTS times; in
+ * 2D one that is seen best up to ATTEMPTS_FLAT times. */
 static const double SMALLER_FLAT = 0.9, SMALLER_SOLID = 0.93;
-enum { ATTEMPTS = 12 };
+enum { ATTEMPTS_FLAT = 8, ATTEMPTS = 12 };
 
 /* In 2D the least width over the length: slimmer ones are hairlines in print. */
 static const double SLIMMEST = 0.003;
@@ -168,13 +169,13 @@ void fg__icon_free(fg_icon *icon)
  * its width. */
 static fg_status shape(fg_icon *icon, fg_context *context, const fg__interior *interior,
                        const fg__streamline *line, const fg__arrow *chosen,
-                       double shorter)
+                       double shorter, int attempts)
 {
   fg__arrow arrow = *chosen;
   bool flat = line->dimension == 2, sound = false;
   double smaller = flat ? SMALLER_FLAT : SMALLER_SOLID;
   fg_status status = FG_STATUS_OK;
-  for (int i = 0; i < ATTEMPTS && !sound; i++) {
+  for (int i = 0; i < attempts && !sound; i++) {
     if (flat && arrow.width < SLIMMEST * (arrow.tip - arrow.tail))
       break;
     double(*points)[3] = NULL;
@@ -261,7 +262,7 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
   if (status == FG_STATUS_OK)
     status = fg__choose_arrow(&arrow, chooser, context, field, &interior, &spine);
   if (status == FG_STATUS_OK && arrow.width > 0) {
-    const double stretched = fg__stretched_length(&interior, &spine);
+    const double stretched = fg__stretched_length(chooser, &interior, &spine);
     fg__arrow whole = arrow;
     if (stretched > 0.0)
       fg__arrow_stretch(&whole, &chooser->best, stretched, interior.margin);
@@ -269,11 +270,15 @@ fg_status fg__icon_make(fg_icon *out, fg_context *context, fg__chooser *chooser,
     const struct {
       const fg__arrow *arrow;
       double shorter;
-    } tries[] = {{&whole, 0.1}, {&whole, 0.3}, {&whole, 1.0}, {&arrow, 1.0}};
+      int attempts;
+    } tries[] = {{&whole, 0.1, ATTEMPTS},
+                 {&whole, 0.3, ATTEMPTS},
+                 {&whole, 1.0, ATTEMPTS},
+                 {&arrow, 1.0, window->dimension == 2 ? ATTEMPTS_FLAT : ATTEMPTS}};
     for (int k = stretched > 0.0 ? 0 : 3; k < 4 && !out->points && !status; k++) {
       out->kind = fg__icon_kind_of(tries[k].arrow->turning);
       status = shape(out, context, &interior, &chooser->best, tries[k].arrow,
-                     tries[k].shorter);
+                     tries[k].shorter, tries[k].attempts);
     }
   }
   if (status == FG_STATUS_OK && out->points)

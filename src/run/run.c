@@ -291,7 +291,8 @@ static fg_status place(fg_run *s, int count)
 static fg_status make_icons(fg_run *s, const fg_run_scale *scale)
 {
   if (!s->plan.placed)
-    return fg_icons_create(&s->icons, s->context, s->field, s->density, NULL);
+    return fg_icons_create(&s->icons, s->context, s->field, s->density,
+                           &(fg_icon_options){.extent = FG_EXTENT_CLUSTER, .threads = 1});
   if (!fg_density_is_distributed(s->density))
     return place(s, scale->wanted[0]);
   fg_density *shared = s->density;

@@ -34,6 +34,7 @@ static void end_comparison(comparison *c)
 static void clusters_are_those_of_the_evolution(void **state)
 {
   static const int numbers[] = {40, 25, 24, 9};
+  static const fg_icon_options of_clusters = {.extent = FG_EXTENT_CLUSTER};
   fg_context *context = *state;
   const fg_run_options options = {.kind = FG_RUN_CLUSTERS,
                                   .numbers = numbers,
@@ -57,7 +58,7 @@ static void clusters_are_those_of_the_evolution(void **state)
     fg_density *density = NULL;
     fg_icons *icons = NULL;
     assert_int_equal(fg_density_create(&density, c.evolution), FG_STATUS_OK);
-    assert_int_equal(fg_icons_create(&icons, context, c.field, density, NULL),
+    assert_int_equal(fg_icons_create(&icons, context, c.field, density, &of_clusters),
                      FG_STATUS_OK);
     same_icons(scale->icons, icons);
     assert_int_equal(fg_density_contents(scale->density)->clusters, step.clusters);
