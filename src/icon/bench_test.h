@@ -87,9 +87,9 @@ static inline test_bench bench_with(velocity_of velocity, depth_of depth,
   bench.field = field_of(bench.context, velocity);
   bench.density = density_of(bench.context, depth, active);
   fg_icon_options options = {.extent = FG_EXTENT_CLUSTER, .threads = threads};
-  assert_int_equal(fg_icons_create(&bench.icons, bench.context, bench.field,
-                                   bench.density, threads ? &options : NULL),
-                   FG_STATUS_OK);
+  assert_int_equal(
+      fg_icons_create(&bench.icons, bench.context, bench.field, bench.density, &options),
+      FG_STATUS_OK);
   return bench;
 }
 

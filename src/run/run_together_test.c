@@ -29,7 +29,9 @@ static void go_on(reference *r, const fg_field *field, bool placed, int k)
     expect(fg_run_place(&r->icons, us.context, r->placement, numbers[k], density, false,
                         finer) == FG_STATUS_OK);
   else
-    expect(fg_icons_create(&r->icons, us.context, field, density, NULL) == FG_STATUS_OK);
+    expect(fg_icons_create(&r->icons, us.context, field, density,
+                           &(fg_icon_options){.extent = FG_EXTENT_CLUSTER}) ==
+           FG_STATUS_OK);
   fg_icons_destroy(before);
   fg_density_destroy(density);
 }
