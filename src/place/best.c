@@ -71,7 +71,7 @@ static fg_status judge(fg__place_search *search, double *criterion)
 
 static fg_status restore_finer(fg__place_descent *descent, const multistart *in)
 {
-  fg_status status = fg__descent_begin(descent, in->finer.count);
+  fg_status status = fg__descent_begin(descent, in->finer.count, FG__PLACE_FINE);
   if (status != FG_STATUS_OK)
     return status;
   descent->search->next_identity = in->next_identity;

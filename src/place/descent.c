@@ -27,13 +27,16 @@ enum { MOST_EXCHANGED = 1500 };
 static const double FINEST = 0.125;
 enum { ALWAYS = 200 };
 
-/* Sweeps after the first scale is complete. */
+/* Sweeps after a scale is complete. */
 enum { SETTLING = 3 };
 
 /* A coarser scale is reached in a chain of scales, whose numbers of icons fall by this
  * ratio; in each, icons move by so much. */
 const double fg__place_chain_ratio = 0.8;
 static const double CHAIN_STEP = 0.1; /* in lambda */
+
+/* The chain's ratio may be smaller by so much of a step rather than take one more. */
+static const double SHORT_OF_A_STEP = 0.3;
 
 const fg__place_schedule fg__place_first_schedule = {0.8, 1.25};
 
@@ -101,7 +104,7 @@ void fg__descent_clear(fg__place_descent *descent)
   descent->search = NULL;
 }
 
-fg_status fg__descent_begin(fg__place_descent *descent, int count)
+fg_status fg__descent_begin(fg__place_descent *descent, int count, fg__place_grain grain)
 {
   fg_status status = check_fineness(descent, count);
   if (status != FG_STATUS_OK)
@@ -110,8 +113,9 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count)
   descent->search = fg__allocate(1, sizeof *descent->search);
   if (!descent->search)
     return fg__fail_memory(descent->context, "a placement", sizeof *descent->search);
-  status = fg__place_search_create(descent->search, descent->context, descent->domain,
-                                   count, descent->options->lengths == FG_LENGTHS_FREE);
+  status =
+      fg__place_search_create(descent->search, descent->context, descent->domain, count,
+                              descent->options->lengths == FG_LENGTHS_FREE, grain);
   if (status != FG_STATUS_OK) {
     free(descent->search);
     descent->search = NULL;
@@ -120,10 +124,10 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count)
 }
 
 /* Starts from icons, and from even points where these are fewer than `even`. */
-static fg_status start(fg__place_descent *descent, int count, int even,
-                       const fg_icons *clusters)
+static fg_status start(fg__place_descent *descent, int count, fg__place_grain grain,
+                       int even, const fg_icons *clusters)
 {
-  fg_status status = fg__descent_begin(descent, count);
+  fg_status status = fg__descent_begin(descent, count, grain);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_search *search = descent->search;
@@ -156,6 +160,7 @@ static bool has_other_ink(const fg__place_search *search)
  * again, first by steps of `step` lambda. */
 static fg_status descend(fg__place_search *search, int sweeps, double step)
 {
+  search->least_step = FG__PLACE_LAST_LEAST_STEP;
   fg_status status = fg__place_relax(search, sweeps);
   for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && has_other_ink(search);
        ++n) {
@@ -222,9 +227,10 @@ fg_status fg__descent_refine(fg__place_descent *descent)
 
 /* A step of the chain of scales, to fewer icons, which are a little longer. The result
  * depends on the icons' seeds alone, so that a run can be resumed from a file. */
-static fg_status thin_to(fg__place_search *search, int count)
+static fg_status thin_to(fg__place_search *search, int count, bool is_last)
 {
-  fg_status status = fg__place_search_rescale(search, count);
+  fg_status status = fg__place_search_rescale(
+      search, count, is_last ? FG__PLACE_FINE : FG__PLACE_COARSE);
   if (status == FG_STATUS_OK)
     status = fg__place_set_reference_error(search);
   fg__place_reactivate_all(search, CHAIN_STEP);
@@ -238,20 +244,29 @@ static fg_status thin_to(fg__place_search *search, int count)
     status = fg__place_complete(search);
   fg__place_reactivate_all(search, CHAIN_STEP);
   if (status == FG_STATUS_OK)
-    status = fg__place_relax(search, 3);
+    status = fg__place_relax(search, is_last ? SETTLING : 1);
   adjust_penalty(search, CHAIN_SHARE);
   return status;
+}
+
+/* Steps from a number of icons to a smaller one, of about the same ratio. */
+static int count_steps(int from, int to, double ratio)
+{
+  const double steps = ceil(log((double)from / to) / -log(ratio) - SHORT_OF_A_STEP);
+  return steps > 1.0 ? (int)steps : 1;
 }
 
 fg_status fg__descent_go_down(fg__place_descent *descent, int count, double ratio)
 {
   fg__place_search *search = descent->search;
   fg_status status = FG_STATUS_OK;
+  const int from = search->count;
+  const int steps = count_steps(from, count, ratio);
   search->scale.ink = search->scale.first_ink;
-  for (int now = search->count; search->scale.count > count && status == FG_STATUS_OK;) {
-    int next = (int)(ratio * now);
-    now = next > count ? next : count;
-    status = thin_to(search, now);
+  for (int n = 1; search->scale.count > count && status == FG_STATUS_OK; ++n) {
+    const double part = (double)n / steps;
+    const int next = (int)(from * pow((double)count / from, part) + 0.5);
+    status = thin_to(search, n < steps ? next : count, n >= steps);
   }
   return status;
 }
@@ -261,7 +276,9 @@ fg_status fg__descent_first(fg__place_descent *descent, int count,
 {
   const int more = (int)fmin(by->start * count, fg__descent_most(descent->domain));
   const int first = more > count ? more : count;
-  fg_status status = start(descent, first, (int)(EVEN_SHARE * first), clusters);
+  fg_status status =
+      start(descent, first, first > count ? FG__PLACE_COARSE : FG__PLACE_FINE,
+            (int)(EVEN_SHARE * first), clusters);
   if (status == FG_STATUS_OK)
     status = relax_to_count(descent->search);
   return status == FG_STATUS_OK ? fg__descent_go_down(descent, count, by->ratio) : status;
@@ -270,7 +287,7 @@ fg_status fg__descent_first(fg__place_descent *descent, int count,
 fg_status fg__descent_near(fg__place_descent *descent, int count, const fg_icons *icons)
 {
   const effort *work = &EFFORTS[descent->options->effort];
-  fg_status status = start(descent, count, 0, icons);
+  fg_status status = start(descent, count, FG__PLACE_FINE, 0, icons);
   if (status != FG_STATUS_OK)
     return status;
   fg__place_search *search = descent->search;

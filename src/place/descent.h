@@ -44,7 +44,7 @@ fg__place_seed fg__place_seed_of(const fg_icon *icon, const fg__place_scale *sca
 void fg__descent_clear(fg__place_descent *descent);
 
 /* Starts a search for `count` icons, of which there are none yet. ARGUMENT, MEMORY. */
-fg_status fg__descent_begin(fg__place_descent *descent, int count);
+fg_status fg__descent_begin(fg__place_descent *descent, int count, fg__place_grain grain);
 
 /* Places a first scale, from clusters or, where that is NULL, from even points: first
  * more icons, as far as the field may have room for them, of which those stay that tell

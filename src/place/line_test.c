@@ -13,7 +13,7 @@ static setting set(fg_context *context, const sampling *box, velocity_of velocit
 {
   setting s = {.field = field_of(context, box, velocity)};
   assert_int_equal(fg__place_domain_create(&s.domain, context, s.field), FG_STATUS_OK);
-  s.scale = fg__place_scale_of(&s.domain, count, true);
+  s.scale = fg__place_scale_of(&s.domain, count, true, FG__PLACE_FINE);
   return s;
 }
 

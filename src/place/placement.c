@@ -96,7 +96,8 @@ fg_status fg__placement_resume(fg_placement *placement, const fg_icons *icons,
                                int *missing)
 {
   *missing = 0;
-  fg_status status = fg__descent_begin(&placement->now, fg_icons_count(icons));
+  fg_status status =
+      fg__descent_begin(&placement->now, fg_icons_count(icons), FG__PLACE_FINE);
   for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
     bool added;
     status = add_again(placement, &added, fg_icons_at(icons, n));

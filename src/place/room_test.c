@@ -291,7 +291,7 @@ static void thin_volumes_have_the_length_of_their_plane(void **state)
     fg_field *field = field_of(*state, &cases[n].box, film);
     fg__place_domain domain;
     assert_int_equal(fg__place_domain_create(&domain, *state, field), FG_STATUS_OK);
-    const fg__place_scale scale = fg__place_scale_of(&domain, 25, true);
+    const fg__place_scale scale = fg__place_scale_of(&domain, 25, true, FG__PLACE_FINE);
     assert_close(scale.lambda, cases[n].lambda, 0.12 * cases[n].lambda);
     fg__place_domain_clear(&domain);
     fg_field_destroy(field);

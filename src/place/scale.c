@@ -24,7 +24,8 @@ static double fair_length(const fg__place_domain *domain, int count)
   return lambda > middle ? share / (thin * middle) : lambda;
 }
 
-fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free)
+fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free,
+                                   fg__place_grain grain)
 {
   const bool flat = domain->dimension == 2;
   const double lambda = ldexp(fair_length(domain, count), -domain->small_arrows);
@@ -33,7 +34,7 @@ fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bo
       .dimension = domain->dimension,
       .count = count,
       .lambda = lambda,
-      .cell = lambda / (flat ? 8.0 : 4.0),
+      .cell = lambda / (flat ? (grain == FG__PLACE_FINE ? 8.0 : 6.0) : 4.0),
       .sampling = lambda / (flat ? 10.0 : 8.0),
       .reach = lambda * (flat ? 1.0 : 1.1),
       .clearance = lambda * (flat ? 0.1 : 0.05),

@@ -31,7 +31,12 @@ typedef struct fg__place_scale {
   bool free;          /* each icon has a length of its own */
 } fg__place_scale;
 
-fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free);
+/* How finely readers are evaluated: in a step of a chain of scales that is not its last
+ * on larger cells in 2D. */
+typedef enum fg__place_grain { FG__PLACE_FINE, FG__PLACE_COARSE } fg__place_grain;
+
+fg__place_scale fg__place_scale_of(const fg__place_domain *domain, int count, bool free,
+                                   fg__place_grain grain);
 
 /* Lowers the least length of lines; false where it is as low as it may be. */
 bool fg__place_shorten(fg__place_scale *scale);

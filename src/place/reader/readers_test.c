@@ -20,7 +20,7 @@ static setting set(fg_context *context, const sampling *box, velocity_of velocit
 {
   setting s = {.context = context, .field = field_of(context, box, velocity)};
   assert_int_equal(fg__place_domain_create(&s.domain, context, s.field), FG_STATUS_OK);
-  s.scale = fg__place_scale_of(&s.domain, count, true);
+  s.scale = fg__place_scale_of(&s.domain, count, true, FG__PLACE_FINE);
   assert_int_equal(fg__place_raster_create(&s.raster, context, &s.domain, &s.scale),
                    FG_STATUS_OK);
   return s;

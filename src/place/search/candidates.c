@@ -4,12 +4,15 @@
 
 #include <math.h>
 
-/* Places that are tried for a new icon are at least this far apart in lambda, each with
+/* Places that are tried for a new icon are at least this far apart in lambda, or with
  * offsets along the axes; the error is smoothed by this many passes of 1 2 1 (lambda/4 on
  * cells of lambda/8). */
 enum { PASSES = 2 };
 static const double APART = 0.5;
 static const double OFFSET = 0.25;
+
+/* Of FG__PLACE_CANDIDATES so many, the best, are tried beside their places, too. */
+enum { MOVED = 8 };
 
 /* Errors beside a line do not call for another one: they count by d^2 / (d^2 + this), d
  * the distance in lambda. Rough coasts would draw all new icons else. */
@@ -94,6 +97,7 @@ static fg_status try_seed(fg__place_search *search, const fg__place_seed *seed,
   return status;
 }
 
+/* The seed of a new icon at a place from the raster's origin, lambda. */
 static fg__place_seed seed_at(const fg__place_search *search, const float position[3])
 {
   const fg__place_scale *scale = &search->scale;
@@ -104,35 +108,51 @@ static fg__place_seed seed_at(const fg__place_search *search, const float positi
   return seed;
 }
 
-/* The best of a place and those beside it. */
-static fg_status try_place(fg__place_search *search, const float position[3],
-                           fg__place_seed *best, double *most)
+/* Tries the places beside a candidate, which the best of them becomes. */
+static fg_status try_beside(fg__place_search *search, fg__place_candidate *best)
 {
+  const fg__place_seed center = best->seed;
+  const double offset = OFFSET * search->scale.lambda;
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; n <= 2 * search->scale.dimension && status == FG_STATUS_OK; ++n) {
-    float beside[3] = {position[0], position[1], position[2]};
-    if (n > 0)
-      beside[(n - 1) / 2] += (float)(n & 1 ? OFFSET : -OFFSET);
-    fg__place_seed seed = seed_at(search, beside);
-    double fall;
-    status = try_seed(search, &seed, &fall);
-    if (fall > *most) {
-      *most = fall;
-      *best = seed;
-    }
+  for (int n = 0; n < 2 * search->scale.dimension && status == FG_STATUS_OK; ++n) {
+    fg__place_candidate next = {center, -HUGE_VAL};
+    next.seed.position[n / 2] += n & 1 ? -offset : offset;
+    status = try_seed(search, &next.seed, &next.fall);
+    if (next.fall > best->fall)
+      *best = next;
   }
   return status;
 }
 
-/* Puts a candidate in its place among the best, which descend. */
+/* A place from the raster's origin, lambda, as a candidate, or where none fits there one
+ * beside it. */
+static fg_status try_place(fg__place_search *search, fg__place_candidate *out,
+                           const float position[3])
+{
+  out->seed = seed_at(search, position);
+  fg_status status = try_seed(search, &out->seed, &out->fall);
+  if (status == FG_STATUS_OK && !(out->fall > -HUGE_VAL))
+    status = try_beside(search, out);
+  return status;
+}
+
+/* Moves a candidate to its place among those before it, which descend. */
+static void rise(const fg__place_candidates *best, int n)
+{
+  const fg__place_candidate moved = best->list[n];
+  for (; n > 0 && best->list[n - 1].fall < moved.fall; --n)
+    best->list[n] = best->list[n - 1];
+  best->list[n] = moved;
+}
+
+/* Puts a candidate in its place among the best. */
 static void rank(fg__place_candidates *best, const fg__place_candidate *next)
 {
   if (best->count == best->most && best->list[best->most - 1].fall >= next->fall)
     return;
-  int n = best->count < best->most ? best->count++ : best->most - 1;
-  for (; n > 0 && best->list[n - 1].fall < next->fall; --n)
-    best->list[n] = best->list[n - 1];
-  best->list[n] = *next;
+  best->count += best->count < best->most;
+  best->list[best->count - 1] = *next;
+  rise(best, best->count - 1);
 }
 
 /* The best of the places where readers err most. */
@@ -145,14 +165,19 @@ static fg_status try_maxima(fg__place_search *search, fg__place_candidates *best
       fg__place_peaks_create(&peaks, search->context, &search->raster, search->map, NULL);
   /* where nothing fits at the first places, all others are tried */
   for (int n = 0; status == FG_STATUS_OK && (n < best->most || best->count == 0); ++n) {
-    fg__place_candidate next = {{{0}, {0}}, -HUGE_VAL};
+    fg__place_candidate next;
     if (!take_maximum(search, &peaks, position))
       break;
-    status = try_place(search, position, &next.seed, &next.fall);
+    status = try_place(search, &next, position);
     if (next.fall > -HUGE_VAL)
       rank(best, &next);
   }
   fg__place_peaks_clear(&peaks);
+  const int moved = best->most * MOVED / FG__PLACE_CANDIDATES;
+  for (int n = 0; n < best->count && n < moved && status == FG_STATUS_OK; ++n) {
+    status = try_beside(search, &best->list[n]);
+    rise(best, n);
+  }
   return status;
 }
 

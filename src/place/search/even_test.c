@@ -13,7 +13,8 @@ static void set(setting *s, fg_context *context, const sampling *box,
 {
   *s = (setting){.field = field_of(context, box, velocity)};
   assert_int_equal(fg__place_domain_create(&s->domain, context, s->field), FG_STATUS_OK);
-  assert_int_equal(fg__place_search_create(&s->search, context, &s->domain, count, true),
+  assert_int_equal(fg__place_search_create(&s->search, context, &s->domain, count, true,
+                                           FG__PLACE_FINE),
                    FG_STATUS_OK);
   assert_int_equal(fg__place_fill_evenly(&s->search, count), FG_STATUS_OK);
 }

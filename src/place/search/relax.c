@@ -7,10 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of moves in lambda: the largest, the smallest, below which an icon is no longer
- * moved, and the growth after a move that was accepted. */
+/* The largest step of moves in lambda, and the growth after a move that was accepted. */
 static const double LARGEST_STEP = 0.35;
-static const double SMALLEST_STEP = 0.02;
 static const double GROWTH = 1.3;
 
 /* A step shrinks by this factor where no move lowered the energy, that to the minimum of
@@ -34,12 +32,7 @@ static const double LEAST_PROMISE = 1e-4;
 static const double NEIGHBOURS = 1.3;
 
 /* The axes of moves: across (in 3D two directions), along, and the two ways. */
-enum { ALONG = 2, WAYS = 3, AXES = 5, MOST_TRIALS = 2 * AXES };
-
-typedef struct trial {
-  fg__place_seed seed;
-  int axis, sign;
-} trial;
+enum { ALONG = 2, WAYS = 3, AXES = 5, MOVES = 2 * AXES };
 
 /* Two unit vectors across a direction; the second only in 3D. */
 static int across(double out[2][3], int dimension, const double direction[3])
@@ -65,8 +58,8 @@ static int across(double out[2][3], int dimension, const double direction[3])
 }
 
 /* The place on a line an arc length from its seed, at its ends at most. */
-static void along(double out[3], const fg__place_search *search,
-                  const fg__place_line *line, double way)
+static void place_along(double out[3], const fg__place_search *search,
+                        const fg__place_line *line, double way)
 {
   int n = line->seed;
   double left = fabs(way) / search->scale.sampling;
@@ -79,7 +72,17 @@ static void along(double out[3], const fg__place_search *search,
         search->scale.origin[k] + (double)line->position[k][n] * search->scale.lambda;
 }
 
-/* A seed moved along its axes. */
+/* Moves both ends of a line along the flow, as far as the ways are long enough. */
+static void slide(double way[2], double step, double shortest)
+{
+  const int behind = step > 0.0 ? 0 : 1;
+  const double most = fmin(fabs(step), fmax(way[behind] - shortest, 0.0));
+  way[behind] -= most;
+  way[1 - behind] += most;
+}
+
+/* A seed moved along its axes. Along the flow a line of free length slides: its ways
+ * change, and the seed stays. */
 static fg__place_seed moved(const fg__place_search *search, const fg__place_icon *icon,
                             const double step[AXES])
 {
@@ -88,36 +91,39 @@ static fg__place_seed moved(const fg__place_search *search, const fg__place_icon
   for (int k = 0; k < 3; ++k)
     direction[k] = (double)icon->line.tangent[k][icon->line.seed];
   int sides = across(side, search->scale.dimension, direction);
-  if (step[ALONG] != 0.0)
-    along(seed.position, search, &icon->line, step[ALONG]);
+  if (step[ALONG] != 0.0 && !search->scale.free)
+    place_along(seed.position, search, &icon->line, step[ALONG]);
   for (int n = 0; n < sides; ++n)
     for (int k = 0; k < search->scale.dimension; ++k)
       seed.position[k] += step[n] * side[n][k];
+  if (search->scale.free)
+    slide(seed.way, step[ALONG], SHORTEST_WAY * search->scale.lambda);
   for (int n = 0; n < 2 && search->scale.free; ++n)
     seed.way[n] = fmax(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
   return seed;
 }
 
-/* The moves of one step that an icon may make. */
-static int list_trials(trial out[MOST_TRIALS], const fg__place_search *search,
-                       const fg__place_icon *icon)
+static bool is_too_long(const fg__place_scale *scale, const fg__place_seed *seed)
+{
+  return scale->free &&
+         seed->way[0] + seed->way[1] > scale->longest + SAME_WAY * scale->lambda;
+}
+
+/* The seed after one of an icon's moves: to one side of an axis by its step. False where
+ * there is no such move. */
+static bool move_of(fg__place_seed *out, const fg__place_search *search,
+                    const fg__place_icon *icon, int move)
 {
   const fg__place_scale *scale = &search->scale;
-  int count = 0;
-  for (int axis = 0; axis < (scale->free ? AXES : WAYS); ++axis)
-    for (int sign = 0; sign < 2; ++sign) {
-      if (axis == 1 && scale->dimension == 2)
-        continue;
-      double step[AXES] = {0};
-      step[axis] = sign ? -icon->step : icon->step;
-      trial next = {moved(search, icon, step), axis, sign};
-      const double *way = next.seed.way;
-      if (axis >= WAYS && (way[axis - WAYS] == icon->seed.way[axis - WAYS] ||
-                           way[0] + way[1] > scale->longest))
-        continue;
-      out[count++] = next;
-    }
-  return count;
+  const int axis = move / 2;
+  double step[AXES] = {0};
+  if ((axis == 1 && scale->dimension == 2) || (axis >= WAYS && !scale->free))
+    return false;
+  step[axis] = move & 1 ? -icon->step : icon->step;
+  *out = moved(search, icon, step);
+  return !(scale->free && axis >= ALONG) ||
+         (memcmp(out->way, icon->seed.way, sizeof out->way) != 0 &&
+          !is_too_long(scale, out));
 }
 
 static void swap_contributions(fg__place_contribution *a, fg__place_contribution *b)
@@ -148,8 +154,7 @@ static bool is_same_length(const fg__place_line *a, const fg__place_line *b,
 /* Shortens the ways of a seed in a free placement to those that its line reaches. A way
  * stays where the line would then be another: where it breaks or ends in a hook it is
  * shortened once more. So a seed always gives its icon's line. */
-static void clip_ways(fg__place_icon *icon, const fg__place_search *search,
-                      fg__place_steps *steps)
+static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
 {
   const fg__place_scale *scale = &search->scale;
   for (int k = 0; k < 2 && scale->free; ++k) {
@@ -158,7 +163,7 @@ static void clip_ways(fg__place_icon *icon, const fg__place_search *search,
     clipped.way[k] = icon->line.way[k];
     if (!(clipped.way[k] < icon->seed.way[k]))
       continue;
-    fg__place_trace_on(&line, search->domain, scale, &clipped, steps);
+    fg__place_trace_on(&line, search->domain, scale, &clipped, &icon->steps);
     if (is_same_length(&line, &icon->line, SAME_WAY * scale->lambda))
       icon->seed = clipped;
   }
@@ -199,14 +204,16 @@ static fg__place_box room_of(const fg__place_search *search, const fg__place_ico
   return box;
 }
 
-/* Tries a seed; `steps` are of its place. *rise is what it adds to the energy; it is
- * accepted when that falls. */
+/* Tries a seed. *rise is what it adds to the energy; it is accepted when that falls. */
 static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
-                         const fg__place_seed *seed, fg__place_steps *steps,
-                         fg__place_box *region, double *now)
+                         const fg__place_seed *seed, fg__place_box *region, double *now)
 {
   fg__place_icon *icon = search->icon[index];
+  const bool stays =
+      memcmp(seed->position, icon->seed.position, sizeof seed->position) == 0;
   fg__place_line line;
+  fg__place_steps elsewhere, *steps = stays ? &icon->steps : &elsewhere;
+  fg__place_no_steps(&elsewhere);
   *taken = false;
   *rise = HUGE_VAL;
   fg__place_trace_on(&line, search->domain, &search->scale, seed, steps);
@@ -228,11 +235,13 @@ static fg_status attempt(double *rise, bool *taken, fg__place_search *search, in
     fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
     fg__place_forget_removal_costs(search, &icon->contribution.box);
     fg__place_forget_removal_costs(search, &search->trial.box);
+    if (!stays)
+      icon->steps = elsewhere;
     icon->seed = *seed;
     icon->line = line;
     swap_contributions(&icon->contribution, &search->trial);
     search->box[index] = icon->contribution.box;
-    clip_ways(icon, search, steps);
+    clip_ways(icon, search);
     *taken = true;
   }
   return FG_STATUS_OK;
@@ -255,39 +264,37 @@ static double lowest(double step[AXES], const fg__place_icon *icon, double rise[
 }
 
 /* Tries the icon's moves in turn, beginning with the one that was taken last, and takes
- * the first that lowers the energy. Where none does, the one to the minimum of the
- * parabolas through them. */
+ * the first that lowers the energy; just after a move that one's opposite does not. Where
+ * none does, the one to the minimum of the parabolas through them. */
 static fg_status visit(fg__place_search *search, int index)
 {
   fg__place_icon *icon = search->icon[index];
-  trial trials[MOST_TRIALS];
-  int count = list_trials(trials, search, icon);
+  const int opposite = icon->has_moved ? icon->move ^ 1 : MOVES;
   double now, rise[AXES][2];
   for (int axis = 0; axis < AXES; ++axis)
     rise[axis][0] = rise[axis][1] = HUGE_VAL;
-  bool taken = false;
-  fg__place_steps here, there; /* from the icon's place, and from a trial's */
-  fg__place_no_steps(&here);
+  fg__place_seed seed;
   fg__place_box region = room_of(search, icon);
   fg_status status = extend_region(search, &region, &icon->contribution.box, index, &now);
-  for (int k = 0; k < count && status == FG_STATUS_OK; ++k) {
-    int n = (k + icon->move) % count;
-    const trial *next = &trials[n];
-    fg__place_no_steps(&there);
-    status = attempt(&rise[next->axis][next->sign], &taken, search, index, &next->seed,
-                     next->axis < WAYS ? &there : &here, &region, &now);
-    if (taken) {
-      icon->move = n;
+  icon->has_moved = false;
+  for (int k = 0; k < MOVES && status == FG_STATUS_OK; ++k) {
+    const int move = (k + icon->move) % MOVES;
+    if (move == opposite || !move_of(&seed, search, icon, move))
+      continue;
+    status = attempt(&rise[move / 2][move & 1], &icon->has_moved, search, index, &seed,
+                     &region, &now);
+    if (icon->has_moved) {
+      icon->move = move;
       icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
       return status;
     }
   }
   double step[AXES], unused;
+  bool taken;
   if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_PROMISE * fabs(now)) {
-    fg__place_seed seed = moved(search, icon, step);
-    fg__place_no_steps(&there);
-    if (seed.way[0] + seed.way[1] <= search->scale.longest || !search->scale.free)
-      status = attempt(&unused, &taken, search, index, &seed, &there, &region, &now);
+    seed = moved(search, icon, step);
+    if (!is_too_long(&search->scale, &seed))
+      status = attempt(&unused, &taken, search, index, &seed, &region, &now);
   }
   icon->step *= SHRINKAGE;
   return status;
@@ -303,7 +310,7 @@ static fg_status relax(fg__place_search *search, int sweeps, bool solve)
     if (status == FG_STATUS_OK && solve)
       status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
     for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-      if (search->icon[n]->step > SMALLEST_STEP * search->scale.lambda) {
+      if (search->icon[n]->step > search->least_step * search->scale.lambda) {
         status = visit(search, n);
         moving = true;
       }
@@ -339,5 +346,6 @@ void fg__place_reactivate_all(fg__place_search *search, double step)
   for (int n = 0; n < search->count; ++n) {
     search->icon[n]->step = step * search->scale.lambda;
     search->icon[n]->move = 0;
+    search->icon[n]->has_moved = false;
   }
 }

@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static fg_status set_scale(fg__place_search *search, int count, bool free)
+static fg_status set_scale(fg__place_search *search, int count, bool free,
+                           fg__place_grain grain)
 {
-  search->scale = fg__place_scale_of(search->domain, count, free);
+  search->scale = fg__place_scale_of(search->domain, count, free, grain);
+  search->least_step = FG__PLACE_LEAST_STEP;
   fg_status status = fg__place_raster_create(&search->raster, search->context,
                                              search->domain, &search->scale);
   if (status == FG_STATUS_OK)
@@ -38,11 +40,12 @@ static void clear_scale(fg__place_search *search)
 }
 
 fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
-                                  const fg__place_domain *domain, int count, bool free)
+                                  const fg__place_domain *domain, int count, bool free,
+                                  fg__place_grain grain)
 {
   *out =
       (fg__place_search){.domain = domain, .context = context, .reference_error = 30.0};
-  fg_status status = set_scale(out, count, free);
+  fg_status status = set_scale(out, count, free, grain);
   if (status != FG_STATUS_OK)
     fg__place_search_clear(out);
   return status;
@@ -88,13 +91,14 @@ static void erase(fg__place_search *search, int index)
           (size_t)(search->count - index) * sizeof *search->box);
 }
 
-fg_status fg__place_search_rescale(fg__place_search *search, int count)
+fg_status fg__place_search_rescale(fg__place_search *search, int count,
+                                   fg__place_grain grain)
 {
   double before = search->scale.lambda;
   const double ink = search->scale.ink;
   bool free = search->scale.free;
   clear_scale(search);
-  fg_status status = set_scale(search, count, free);
+  fg_status status = set_scale(search, count, free, grain);
   search->scale.ink = ink;
   double grown = search->scale.lambda / before;
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
@@ -103,6 +107,7 @@ fg_status fg__place_search_rescale(fg__place_search *search, int count)
       icon->seed.way[k] *= grown;
     icon->step *= grown;
     icon->has_removal_cost = false;
+    fg__place_no_steps(&icon->steps);
     fg__place_trace(&icon->line, search->domain, &search->scale, &icon->seed);
     if (icon->line.count == 0) {
       erase(search, n--);

@@ -5,12 +5,18 @@
 
 #include "place/reader/diffusion.h"
 
+/* The least step of moves in lambda, and that of a placement's last descent. */
+#define FG__PLACE_LEAST_STEP 0.04
+#define FG__PLACE_LAST_LEAST_STEP 0.02
+
 typedef struct fg__place_icon {
   fg__place_seed seed;
+  fg__place_steps steps; /* of lines from that place */
   fg__place_line line;
   fg__place_contribution contribution; /* of its line to what readers reconstruct */
   double step;                         /* of its moves, input coordinates */
-  int move;                            /* the last one that was accepted */
+  int move;                            /* the last one that was accepted, */
+  bool has_moved;                      /* at the last visit */
   int identity;          /* stays as the icon moves, and from scale to scale */
   double removal_cost;   /* by how much the energy rises when the icon is removed */
   bool has_removal_cost; /* it is known */
@@ -29,6 +35,7 @@ typedef struct fg__place_search {
   int count;
   size_t capacity, box_capacity;
   int next_identity;
+  double least_step; /* of moves, lambda: below, an icon is no longer moved */
   /* Working memory: */
   fg__place_contribution others, trial, whole;
   fg__place_points beside; /* samples of the icons that were gathered last */
@@ -40,12 +47,14 @@ typedef struct fg__place_search {
 
 /* Starts a search for `count` icons, with none yet. MEMORY. */
 fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
-                                  const fg__place_domain *domain, int count, bool free);
+                                  const fg__place_domain *domain, int count, bool free,
+                                  fg__place_grain grain);
 void fg__place_search_clear(fg__place_search *search);
 
 /* Changes the number of icons that the search is for. Its icons stay where they are, with
  * lengths in proportion to the new lambda; the penalty of ink stays. MEMORY. */
-fg_status fg__place_search_rescale(fg__place_search *search, int count);
+fg_status fg__place_search_rescale(fg__place_search *search, int count,
+                                   fg__place_grain grain);
 
 /* Adds an icon at a seed; *added is false where no line can lie. MEMORY. */
 fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_seed *seed,
