@@ -1,7 +1,6 @@
 #include "place/best.h"
 
 #include "base/memory.h"
-#include "base/threads.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -108,6 +107,7 @@ static fg_status make_and_compare(worker *own, int number)
   double criterion = HUGE_VAL;
   fg__place_descent descent = *in->from;
   descent.context = own->context;
+  descent.threads = NULL;
   descent.search = NULL;
   fg_status status = make(&descent, in, number);
   if (status == FG_STATUS_OK)
@@ -152,30 +152,26 @@ static fg_status take_best(fg__place_descent *descent, worker *all, int count,
   fg__descent_clear(descent);
   descent->search = best->search;
   descent->search->context = descent->context;
+  descent->search->threads = descent->threads;
   best->search = NULL;
   return FG_STATUS_OK;
 }
 
-static fg_status share_out(multistart *in, fg__place_descent *descent, int thread_count)
+static fg_status share_out(multistart *in, fg__place_descent *descent)
 {
-  fg__threads *threads = NULL;
-  worker *all = fg__allocate((size_t)thread_count, sizeof *all);
+  const int count = fg__threads_count(descent->threads);
+  worker *all = fg__allocate((size_t)count, sizeof *all);
   if (!all)
-    return fg__fail_memory(descent->context, "placements",
-                           (size_t)thread_count * sizeof *all);
-  /* where no thread is to be had the caller makes all of them */
-  fg__threads_create(&threads, NULL, thread_count);
-  const int count = fg__threads_count(threads);
+    return fg__fail_memory(descent->context, "placements", (size_t)count * sizeof *all);
   fg_status status = FG_STATUS_OK;
   for (int n = 0; n < count && status == FG_STATUS_OK; ++n) {
     all[n].in = in;
     status = fg__context_create_beside(&all[n].context, descent->context);
   }
   if (status == FG_STATUS_OK) {
-    fg__threads_run(threads, work, all);
+    fg__threads_run(descent->threads, work, all);
     status = take_best(descent, all, count, in);
   }
-  fg__threads_destroy(threads);
   for (int n = 0; n < count; ++n) {
     fg__place_descent left = {.search = all[n].search};
     fg__descent_clear(&left);
@@ -199,16 +195,6 @@ static int count_others(const fg__place_descent *descent, int count, bool is_fir
          OTHERS[others - 1].start * count > fg__descent_most(descent->domain))
     --others;
   return others;
-}
-
-/* Ranks have their own work beside that of the one that places. */
-static int count_threads(const fg__place_descent *descent)
-{
-  int rank, ranks;
-  fg_ranks(descent->context, &rank, &ranks);
-  return descent->options->threads > 0 ? descent->options->threads
-         : ranks > 1                   ? 1
-                                       : fg__threads_available();
 }
 
 /* Makes a single placement, of a coarser scale from the present icons. */
@@ -241,9 +227,8 @@ fg_status fg__place_best(fg__place_descent *descent, int count, const fg_icons *
     in.next_identity = descent->search->next_identity;
     status = fg__place_remember(&in.finer, descent->search);
   }
-  const int threads = count_threads(descent);
   if (status == FG_STATUS_OK)
-    status = share_out(&in, descent, threads < in.placements ? threads : in.placements);
+    status = share_out(&in, descent);
   fg__place_snapshot_clear(&in.finer);
   return status;
 }

@@ -119,8 +119,10 @@ fg_status fg__descent_begin(fg__place_descent *descent, int count, fg__place_gra
   if (status != FG_STATUS_OK) {
     free(descent->search);
     descent->search = NULL;
+    return status;
   }
-  return status;
+  descent->search->threads = descent->threads;
+  return FG_STATUS_OK;
 }
 
 /* Starts from icons, and from even points where these are fewer than `even`. */

@@ -13,6 +13,7 @@ typedef struct fg__place_descent {
   fg_context *context;
   const fg__place_domain *domain;
   const fg_placement_options *options;
+  fg__threads *threads;     /* borrowed; NULL: the caller alone */
   fg__place_search *search; /* NULL: none has begun */
 } fg__place_descent;
 

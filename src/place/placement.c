@@ -34,6 +34,16 @@ const fg_field *fg__placement_field(const fg_placement *placement)
   return placement->domain.given;
 }
 
+/* Ranks have their own work beside that of the one that places. */
+static int count_threads(fg_context *context, const fg_placement_options *options)
+{
+  int rank, ranks;
+  fg_ranks(context, &rank, &ranks);
+  return options->threads > 0 ? options->threads
+         : ranks > 1          ? 1
+                              : fg__threads_available();
+}
+
 fg_status fg_placement_create(fg_placement **out, fg_context *context,
                               const fg_field *field, const fg_placement_options *options)
 {
@@ -62,6 +72,9 @@ fg_status fg_placement_create(fg_placement **out, fg_context *context,
     free(placement);
     return status;
   }
+  /* where no thread is to be had the caller does all */
+  fg__threads_create(&placement->now.threads, NULL,
+                     count_threads(context, &placement->options));
   *out = placement;
   return FG_STATUS_OK;
 }
@@ -71,6 +84,7 @@ void fg_placement_destroy(fg_placement *placement)
   if (!placement)
     return;
   fg__descent_clear(&placement->now);
+  fg__threads_destroy(placement->now.threads);
   fg__place_domain_clear(&placement->domain);
   free(placement);
 }

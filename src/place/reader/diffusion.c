@@ -86,11 +86,17 @@ fg_status fg__place_diffusion_create(fg__place_diffusion *out, fg_context *conte
   return FG_STATUS_OK;
 }
 
+void fg__place_window_clear(fg__place_window *window)
+{
+  free(window->room);
+  free(window->run);
+  *window = (fg__place_window){.reader = NULL};
+}
+
 void fg__place_diffusion_clear(fg__place_diffusion *reader)
 {
   free(reader->cells);
-  free(reader->window.room);
-  free(reader->window.run);
+  fg__place_window_clear(&reader->window);
   *reader = (fg__place_diffusion){0};
 }
 
@@ -169,8 +175,10 @@ double fg__place_diffusion_sum(const fg__place_diffusion *reader)
 }
 
 /* Lays the window's arrays out for its box. */
-static fg_status open_window(fg__place_window *window, fg_context *context, int dimension)
+static fg_status open_window(fg__place_window *window, fg_context *context,
+                             const fg__place_diffusion *reader)
 {
+  const int dimension = reader->raster.dimension;
   const int *size = window->box.size;
   size_t wide = ((size_t)size[0] + 2 + PAD - 1) / PAD * PAD;
   size_t plane = wide * ((size_t)size[1] + 2);
@@ -178,6 +186,7 @@ static fg_status open_window(fg__place_window *window, fg_context *context, int 
   /* a row is read in whole vectors, from one cell before to one behind */
   size_t needed = plane * deep + 2 * PAD, count = fg__place_array_stride(needed);
   size_t arrays = WINDOW_SCALARS + 3 * (size_t)dimension;
+  window->reader = reader;
   window->stride[0] = wide;
   window->stride[1] = plane;
   window->origin = 1 + wide + (dimension == 3 ? plane : 0);
@@ -215,10 +224,9 @@ typedef struct row_place {
   size_t raster, window;
 } row_place;
 
-static row_place row_at(const fg__place_diffusion *reader, int y, int z)
+static row_place row_at(const fg__place_window *window, int y, int z)
 {
-  const fg__place_window *window = &reader->window;
-  const int *cells = reader->raster.cells, *low = window->box.low;
+  const int *cells = window->reader->raster.cells, *low = window->box.low;
   return (row_place){((size_t)(low[2] + z) * (size_t)cells[1] + (size_t)(low[1] + y)) *
                              (size_t)cells[0] +
                          (size_t)low[0],
@@ -232,10 +240,10 @@ static bool has_row(const fg__place_raster *raster, int y, int z)
 }
 
 /* Copies the reader's field into the window, with the cells around it, which stay. */
-static void copy_values(fg__place_diffusion *reader)
+static void copy_values(const fg__place_window *window)
 {
+  const fg__place_diffusion *reader = window->reader;
   const fg__place_raster *raster = &reader->raster;
-  fg__place_window *window = &reader->window;
   const fg__place_box *box = &window->box;
   int before = box->low[0] > 0 ? 1 : 0;
   int behind = box->low[0] + box->size[0] < raster->cells[0] ? 1 : 0;
@@ -258,24 +266,23 @@ static void copy_values(fg__place_diffusion *reader)
     }
 }
 
-static void copy_lines(fg__place_diffusion *reader)
+static void copy_lines(const fg__place_window *window)
 {
-  fg__place_window *window = &reader->window;
+  const fg__place_diffusion *reader = window->reader;
   const fg__place_box *box = &window->box;
   size_t bytes = (size_t)box->size[0] * sizeof(float);
   for (int z = 0; z < box->size[2]; ++z)
     for (int y = 0; y < box->size[1]; ++y) {
-      row_place at = row_at(reader, y, z);
+      row_place at = row_at(window, y, z);
       memcpy(window->strength + at.window, reader->strength + at.raster, bytes);
       for (int k = 0; k < reader->raster.dimension; ++k)
         memcpy(window->source[k] + at.window, reader->source[k] + at.raster, bytes);
     }
 }
 
-static fg__place_window_rows rows_of(const fg__place_diffusion *reader)
+static fg__place_window_rows rows_of(const fg__place_window *window)
 {
-  const fg__place_window *window = &reader->window;
-  fg__place_window_rows rows = {.dimension = reader->raster.dimension,
+  fg__place_window_rows rows = {.dimension = window->reader->raster.dimension,
                                 .stride = {window->stride[0], window->stride[1]},
                                 .origin = window->origin,
                                 .inverse = window->inverse,
@@ -315,13 +322,12 @@ static void add_runs(fg__place_window *window, size_t row)
 }
 
 /* Chebyshev's semi-iteration on Jacobi's (Golub and Varga 1961). */
-static void iterate(fg__place_diffusion *reader, int steps)
+static void iterate(fg__place_window *window, int steps)
 {
-  fg__place_window *window = &reader->window;
   const float square = RADIUS * RADIUS;
   float omega = 1.0F;
   for (int step = 0; step < steps; ++step) {
-    const fg__place_window_rows rows = rows_of(reader);
+    const fg__place_window_rows rows = rows_of(window);
     fg__place_diffuse_rows(&rows, omega);
     for (int k = 0; k < 3; ++k) {
       window->last[k] = rows.value[k];
@@ -332,32 +338,32 @@ static void iterate(fg__place_diffusion *reader, int steps)
 }
 
 /* Solves in the window; the growth of its errors' sum. */
-static double solve_window(fg__place_diffusion *reader, int steps)
+static double solve_window(fg__place_window *window, int steps)
 {
+  const fg__place_diffusion *reader = window->reader;
   const fg__place_raster *raster = &reader->raster;
-  fg__place_window *window = &reader->window;
   const size_t row = (size_t)raster->cells[0], plane = row * (size_t)raster->cells[1];
-  const fg__place_raster_rows at = {{row, plane}, row_at(reader, 0, 0).raster};
-  fg__place_window_rows rows = rows_of(reader);
+  const fg__place_raster_rows at = {{row, plane}, row_at(window, 0, 0).raster};
+  fg__place_window_rows rows = rows_of(window);
   fg__place_inverse_rows(&rows, window->strength, &at, reader->faces);
   window->run_count = 0;
   for (int z = 0; z < window->box.size[2]; ++z)
     for (int y = 0; y < window->box.size[1]; ++y)
-      add_runs(window, row_at(reader, y, z).window);
-  iterate(reader, steps);
-  rows = rows_of(reader);
+      add_runs(window, row_at(window, y, z).window);
+  iterate(window, steps);
+  rows = rows_of(window);
   return fg__place_angle_rows(window->error, &rows, &at, raster, reader->error);
 }
 
 /* Takes the window's solution over. */
-static void copy_back(fg__place_diffusion *reader)
+static void copy_back(const fg__place_window *window)
 {
-  const fg__place_window *window = &reader->window;
+  const fg__place_diffusion *reader = window->reader;
   const fg__place_box *box = &window->box;
   size_t bytes = (size_t)box->size[0] * sizeof(float);
   for (int z = 0; z < box->size[2]; ++z)
     for (int y = 0; y < box->size[1]; ++y) {
-      row_place at = row_at(reader, y, z);
+      row_place at = row_at(window, y, z);
       memcpy(reader->error + at.raster, window->error + at.window, bytes);
       for (int k = 0; k < reader->raster.dimension; ++k)
         memcpy(reader->value[k] + at.raster, window->value[k] + at.window, bytes);
@@ -370,21 +376,20 @@ fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *con
   fg__place_window *window = &reader->window;
   memset(window->box.low, 0, sizeof window->box.low);
   memcpy(window->box.size, reader->raster.cells, sizeof window->box.size);
-  fg_status status = open_window(window, context, reader->raster.dimension);
+  fg_status status = open_window(window, context, reader);
   if (status != FG_STATUS_OK)
     return status;
-  copy_values(reader);
-  copy_lines(reader);
-  solve_window(reader, near ? NEAR_STEPS : WHOLE_STEPS);
-  copy_back(reader);
+  copy_values(window);
+  copy_lines(window);
+  solve_window(window, near ? NEAR_STEPS : WHOLE_STEPS);
+  copy_back(window);
   return FG_STATUS_OK;
 }
 
-fg_status fg__place_diffusion_try(double *growth, fg__place_diffusion *reader,
-                                  fg_context *context, const fg__place_line *from,
-                                  const fg__place_line *to)
+fg_status fg__place_diffusion_try(double *growth, fg__place_window *window,
+                                  const fg__place_diffusion *reader, fg_context *context,
+                                  const fg__place_line *from, const fg__place_line *to)
 {
-  fg__place_window *window = &reader->window;
   const int dimension = reader->raster.dimension;
   const fg__place_line *const lines[2] = {from, to};
   window->box = (fg__place_box){{0}, {0}};
@@ -394,11 +399,11 @@ fg_status fg__place_diffusion_try(double *growth, fg__place_diffusion *reader,
       fg__place_box_widen(&window->box, &box);
     }
   *growth = 0.0;
-  fg_status status = open_window(window, context, dimension);
+  fg_status status = open_window(window, context, reader);
   if (status != FG_STATUS_OK || fg__place_box_count(&window->box) == 0)
     return status;
-  copy_values(reader);
-  copy_lines(reader);
+  copy_values(window);
+  copy_lines(window);
   held room = {.box = window->box,
                .stride = {window->stride[0], window->stride[1]},
                .strength = window->strength + window->origin};
@@ -408,15 +413,15 @@ fg_status fg__place_diffusion_try(double *growth, fg__place_diffusion *reader,
     hold_line(&room, &reader->raster, from, -reader->hold);
   if (to)
     hold_line(&room, &reader->raster, to, reader->hold);
-  *growth = solve_window(reader, STEPS);
+  *growth = solve_window(window, STEPS);
   return FG_STATUS_OK;
 }
 
-void fg__place_diffusion_keep(fg__place_diffusion *reader, const fg__place_line *from,
-                              const fg__place_line *to)
+void fg__place_diffusion_keep(fg__place_diffusion *reader, const fg__place_window *window,
+                              const fg__place_line *from, const fg__place_line *to)
 {
   held all = whole_of(reader);
-  copy_back(reader);
+  copy_back(window);
   if (from)
     hold_line(&all, &reader->raster, from, -reader->hold);
   if (to)

@@ -9,6 +9,7 @@
 
 /* The part of the raster that a trial solves for, with one cell more on each side. */
 typedef struct fg__place_window {
+  const struct fg__place_diffusion *reader;
   fg__place_box box; /* without those */
   size_t stride[2];  /* of rows and planes */
   size_t origin;     /* of the box's first cell */
@@ -28,7 +29,7 @@ typedef struct fg__place_diffusion {
   float *source[3]; /* the sum of strength times tangent */
   float *value[3];  /* the reader's field */
   float *error;     /* its angle to the flow times weight, degrees */
-  fg__place_window window;
+  fg__place_window window; /* for all cells */
 } fg__place_diffusion;
 
 /* A reader of no lines. The raster's arrays must outlive it. MEMORY. */
@@ -49,14 +50,17 @@ fg_status fg__place_diffusion_solve(fg__place_diffusion *reader, fg_context *con
 /* The sum of errors over all cells, degrees. */
 double fg__place_diffusion_sum(const fg__place_diffusion *reader);
 
-/* What that sum grows by when line `from` gives way to line `to`; NULL: no line. MEMORY.
+/* What that sum grows by when line `from` gives way to line `to`; NULL: no line. Trials
+ * in windows of their own may be made at the same time. MEMORY.
  */
-fg_status fg__place_diffusion_try(double *growth, fg__place_diffusion *reader,
-                                  fg_context *context, const fg__place_line *from,
-                                  const fg__place_line *to);
+fg_status fg__place_diffusion_try(double *growth, fg__place_window *window,
+                                  const fg__place_diffusion *reader, fg_context *context,
+                                  const fg__place_line *from, const fg__place_line *to);
 
-/* Lets the last trial come true. */
-void fg__place_diffusion_keep(fg__place_diffusion *reader, const fg__place_line *from,
-                              const fg__place_line *to);
+/* Lets the trial come true that a window holds. */
+void fg__place_diffusion_keep(fg__place_diffusion *reader, const fg__place_window *window,
+                              const fg__place_line *from, const fg__place_line *to);
+
+void fg__place_window_clear(fg__place_window *window);
 
 #endif

@@ -121,11 +121,11 @@ static void trials_agree_with_whole_solutions(setting *s, const double place[][3
     fg__place_diffusion_add(&s->reader, &line[n]);
   solve(s, 12);
   double before = fg__place_diffusion_sum(&s->reader), growth;
-  assert_int_equal(fg__place_diffusion_try(&growth, &s->reader, s->context, &line[0],
-                                           &line[lines - 1]),
+  assert_int_equal(fg__place_diffusion_try(&growth, &s->reader.window, &s->reader,
+                                           s->context, &line[0], &line[lines - 1]),
                    FG_STATUS_OK);
   assert_true(fg__place_diffusion_sum(&s->reader) == before); /* a trial only */
-  fg__place_diffusion_keep(&s->reader, &line[0], &line[lines - 1]);
+  fg__place_diffusion_keep(&s->reader, &s->reader.window, &line[0], &line[lines - 1]);
   assert_close(fg__place_diffusion_sum(&s->reader), before + growth, 1e-4 * before);
   solve(s, 12);
   double after = fg__place_diffusion_sum(&s->reader);
@@ -215,14 +215,16 @@ static void nothing_is_read_without_lines(void **state)
   fg__place_line line;
   fg__place_trace(&line, &s.domain, &s.scale, &seed);
   double growth;
-  assert_int_equal(fg__place_diffusion_try(&growth, &s.reader, s.context, NULL, &line),
+  assert_int_equal(fg__place_diffusion_try(&growth, &s.reader.window, &s.reader,
+                                           s.context, NULL, &line),
                    FG_STATUS_OK);
   assert_true(growth < -1);
-  fg__place_diffusion_keep(&s.reader, NULL, &line);
+  fg__place_diffusion_keep(&s.reader, &s.reader.window, NULL, &line);
   for (size_t n = 0; n < s.raster.count; ++n)
     if (s.reader.faces[n] == 0.0F)
       assert_true(s.reader.value[0][n] == 0.0F && s.reader.value[1][n] == 0.0F);
-  assert_int_equal(fg__place_diffusion_try(&growth, &s.reader, s.context, NULL, NULL),
+  assert_int_equal(fg__place_diffusion_try(&growth, &s.reader.window, &s.reader,
+                                           s.context, NULL, NULL),
                    FG_STATUS_OK);
   assert_true(growth == 0.0);
   clear(&s);

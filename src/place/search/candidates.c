@@ -2,7 +2,10 @@
 #include "place/search/peaks.h"
 #include "place/search/search.h"
 
+#include "base/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 /* Places that are tried for a new icon are at least this far apart in lambda, or with
  * offsets along the axes; the error is smoothed by this many passes of 1 2 1 (lambda/4 on
@@ -72,28 +75,29 @@ static bool take_maximum(fg__place_search *search, fg__place_peaks *peaks,
   return true;
 }
 
-/* How much a new icon at a seed lowers the energy; `search->whole` has the contribution
- * of all icons. */
-static fg_status try_seed(fg__place_search *search, const fg__place_seed *seed,
-                          double *fall)
+/* How much a new icon at a candidate's seed lowers the energy; search->own holds the
+ * contribution of all icons and their samples. */
+static fg_status try_seed(fg__place_worker *worker, fg__place_candidate *out)
 {
+  const fg__place_search *search = worker->search;
+  const fg__place_contribution *all = &search->own.others;
   fg__place_line line;
-  *fall = -HUGE_VAL;
-  fg__place_trace(&line, search->domain, &search->scale, seed);
+  out->fall = -HUGE_VAL;
+  fg__place_trace(&line, search->domain, &search->scale, &out->seed);
   if (line.count == 0)
     return FG_STATUS_OK;
-  fg_status status = fg__place_contribution_compute(
-      &search->trial, search->context, &search->raster, &search->scale, &line);
+  fg_status status = fg__place_contribution_compute(&worker->trial, NULL, &search->raster,
+                                                    &search->scale, &line);
   if (status != FG_STATUS_OK)
     return status;
-  const fg__place_box *box = &search->trial.box;
-  double before =
-      fg__place_cost(NULL, &search->raster, box, &search->whole, NULL, &search->weights);
-  double after = fg__place_cost(NULL, &search->raster, box, &search->whole,
-                                &search->trial, &search->weights);
+  const fg__place_box *box = &worker->trial.box;
+  double before = fg__place_cost(NULL, &search->raster, box, all, NULL, &search->weights);
+  double after =
+      fg__place_cost(NULL, &search->raster, box, all, &worker->trial, &search->weights);
   double diffusion;
-  status = fg__place_diffusion_cost(&diffusion, search, NULL, &line);
-  *fall = before - after - diffusion - fg__place_line_penalty(search, &line);
+  status = fg__place_diffusion_cost(&diffusion, worker, NULL, &line);
+  out->fall = before - after - diffusion -
+              fg__place_line_penalty(&search->scale, &search->own.beside, &line);
   return status;
 }
 
@@ -109,31 +113,30 @@ static fg__place_seed seed_at(const fg__place_search *search, const float positi
 }
 
 /* Tries the places beside a candidate, which the best of them becomes. */
-static fg_status try_beside(fg__place_search *search, fg__place_candidate *best)
+static fg_status try_beside(void *argument, fg__place_worker *worker, int n)
 {
+  fg__place_candidate *best = (fg__place_candidate *)argument + n;
+  const fg__place_scale *scale = &worker->search->scale;
   const fg__place_seed center = best->seed;
-  const double offset = OFFSET * search->scale.lambda;
   fg_status status = FG_STATUS_OK;
-  for (int n = 0; n < 2 * search->scale.dimension && status == FG_STATUS_OK; ++n) {
-    fg__place_candidate next = {center, -HUGE_VAL};
-    next.seed.position[n / 2] += n & 1 ? -offset : offset;
-    status = try_seed(search, &next.seed, &next.fall);
+  for (int side = 0; side < 2 * scale->dimension && status == FG_STATUS_OK; ++side) {
+    fg__place_candidate next = {.seed = center};
+    next.seed.position[side / 2] += (side & 1 ? -OFFSET : OFFSET) * scale->lambda;
+    status = try_seed(worker, &next);
     if (next.fall > best->fall)
       *best = next;
   }
   return status;
 }
 
-/* A place from the raster's origin, lambda, as a candidate, or where none fits there one
- * beside it. */
-static fg_status try_place(fg__place_search *search, fg__place_candidate *out,
-                           const float position[3])
+/* Tries a candidate, or where none fits at its place those beside it. */
+static fg_status try_place(void *argument, fg__place_worker *worker, int n)
 {
-  out->seed = seed_at(search, position);
-  fg_status status = try_seed(search, &out->seed, &out->fall);
-  if (status == FG_STATUS_OK && !(out->fall > -HUGE_VAL))
-    status = try_beside(search, out);
-  return status;
+  fg__place_candidate *out = (fg__place_candidate *)argument + n;
+  fg_status status = try_seed(worker, out);
+  return status == FG_STATUS_OK && !(out->fall > -HUGE_VAL)
+             ? try_beside(argument, worker, n)
+             : status;
 }
 
 /* Moves a candidate to its place among those before it, which descend. */
@@ -155,29 +158,45 @@ static void rank(fg__place_candidates *best, const fg__place_candidate *next)
   rise(best, best->count - 1);
 }
 
+/* Tries the next places where readers err most, as many as candidates are wanted; false
+ * where there are none. */
+static bool try_next(fg_status *status, fg__place_search *search, fg__place_peaks *peaks,
+                     fg__place_candidate *next, fg__place_candidates *best)
+{
+  float position[3];
+  int count = 0;
+  while (count < best->most && take_maximum(search, peaks, position))
+    next[count++].seed = seed_at(search, position);
+  *status = fg__place_share(search, try_place, next, count);
+  for (int n = 0; n < count && *status == FG_STATUS_OK; ++n)
+    if (next[n].fall > -HUGE_VAL)
+      rank(best, &next[n]);
+  return count > 0 && *status == FG_STATUS_OK;
+}
+
 /* The best of the places where readers err most. */
 static fg_status try_maxima(fg__place_search *search, fg__place_candidates *best)
 {
-  float position[3];
+  const size_t most = (size_t)best->most;
   fg__place_peaks peaks;
+  fg__place_candidate *next = fg__allocate(most, sizeof *next);
+  if (!next)
+    return fg__fail_memory(search->context, "places for icons", most * sizeof *next);
   smooth_map(search);
   fg_status status =
       fg__place_peaks_create(&peaks, search->context, &search->raster, search->map, NULL);
   /* where nothing fits at the first places, all others are tried */
-  for (int n = 0; status == FG_STATUS_OK && (n < best->most || best->count == 0); ++n) {
-    fg__place_candidate next;
-    if (!take_maximum(search, &peaks, position))
-      break;
-    status = try_place(search, &next, position);
-    if (next.fall > -HUGE_VAL)
-      rank(best, &next);
-  }
+  while (status == FG_STATUS_OK && best->count == 0 &&
+         try_next(&status, search, &peaks, next, best))
+    continue;
   fg__place_peaks_clear(&peaks);
+  free(next);
   const int moved = best->most * MOVED / FG__PLACE_CANDIDATES;
-  for (int n = 0; n < best->count && n < moved && status == FG_STATUS_OK; ++n) {
-    status = try_beside(search, &best->list[n]);
+  const int count = best->count < moved ? best->count : moved;
+  if (status == FG_STATUS_OK)
+    status = fg__place_share(search, try_beside, best->list, count);
+  for (int n = 0; n < count; ++n)
     rise(best, n);
-  }
   return status;
 }
 
@@ -188,7 +207,7 @@ static fg_status try_cells(fg__place_search *search, fg__place_candidates *best)
   const fg__place_raster *raster = &search->raster;
   fg_status status = FG_STATUS_OK;
   for (size_t n = 0; n < raster->count && status == FG_STATUS_OK; ++n) {
-    fg__place_candidate next = {{{0}, {0}}, -HUGE_VAL};
+    fg__place_candidate next;
     float position[3];
     size_t rest = n;
     if (!(raster->weight[n] > 0.0F))
@@ -198,7 +217,7 @@ static fg_status try_cells(fg__place_search *search, fg__place_candidates *best)
       rest /= (size_t)raster->cells[k];
     }
     next.seed = seed_at(search, position);
-    status = try_seed(search, &next.seed, &next.fall);
+    status = try_seed(&search->own, &next);
     if (next.fall > -HUGE_VAL)
       rank(best, &next);
   }
@@ -211,12 +230,12 @@ fg_status fg__place_list_candidates(fg__place_candidates *best, fg__place_search
   fg_status status = fg__place_gather_whole(search);
   if (status != FG_STATUS_OK)
     return status;
-  fg__place_cost(search->map, &search->raster, &search->whole.box, &search->whole, NULL,
-                 &search->weights);
+  const fg__place_contribution *all = &search->own.others;
+  fg__place_cost(search->map, &search->raster, &all->box, all, NULL, &search->weights);
   float diffusion = (float)search->scale.diffusion * search->weights.inverse_error;
   for (size_t n = 0; n < search->raster.count; ++n)
     search->map[n] = (search->map[n] + diffusion * search->diffusion.error[n]) *
-                     search->whole.value[n] / (search->whole.value[n] + BESIDE);
+                     all->value[n] / (all->value[n] + BESIDE);
   status = try_maxima(search, best);
   if (status == FG_STATUS_OK && best->count == 0)
     status = try_cells(search, best);

@@ -19,46 +19,46 @@ static const double BRIEF = 0.8;
  * line may be nearer. */
 static const float TOUCHING = 0.11F;
 
-/* Lists the icons other than `except` that contribute to a box, and gathers their
- * samples. */
-static fg_status gather_near(fg__place_search *search, const fg__place_box *box,
-                             int except)
+fg_status fg__place_find_near(fg__place_worker *worker, const fg__place_box *box,
+                              int except)
 {
+  const fg__place_search *search = worker->search;
   int most = 0;
-  search->near_count = 0;
-  if (!fg__grow((void **)&search->near, &search->near_capacity, (size_t)search->count,
-                sizeof *search->near))
-    return fg__fail_memory(search->context, "a list of icons",
-                           (size_t)search->count * sizeof *search->near);
+  worker->near_count = 0;
+  if (!fg__grow((void **)&worker->near, &worker->near_capacity, (size_t)search->count,
+                sizeof *worker->near))
+    return FG_STATUS_MEMORY;
   for (int n = 0; n < search->count; ++n)
     if (n != except && fg__place_boxes_meet(box, &search->box[n])) {
-      search->near[search->near_count++] = n;
+      worker->near[worker->near_count++] = n;
       most += search->icon[n]->line.count;
     }
-  fg_status status = fg__place_points_start(&search->beside, search->context,
-                                            search->scale.dimension, most);
-  for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
-    fg__place_points_add(&search->beside, &search->icon[search->near[n]]->line);
+  fg_status status =
+      fg__place_points_start(&worker->beside, NULL, search->scale.dimension, most);
+  for (int n = 0; n < worker->near_count && status == FG_STATUS_OK; ++n)
+    fg__place_points_add(&worker->beside, &search->icon[worker->near[n]]->line);
   return status;
 }
 
-fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
-                           const fg__place_box *box, int except)
+fg_status fg__place_gather(fg__place_worker *worker, const fg__place_box *box, int except)
 {
-  fg_status status = gather_near(search, box, except);
+  const fg__place_search *search = worker->search;
+  fg_status status = fg__place_find_near(worker, box, except);
   if (status == FG_STATUS_OK)
-    status = fg__place_contribution_start(out, search->context, search->scale.dimension,
+    status = fg__place_contribution_start(&worker->others, NULL, search->scale.dimension,
                                           box, (float)fg__place_reach(search));
-  for (int n = 0; n < search->near_count && status == FG_STATUS_OK; ++n)
-    fg__place_contribution_add(out, &search->icon[search->near[n]]->contribution);
+  for (int n = 0; n < worker->near_count && status == FG_STATUS_OK; ++n)
+    fg__place_contribution_add(&worker->others,
+                               &search->icon[worker->near[n]]->contribution);
   return status;
 }
 
-fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
+fg_status fg__place_diffusion_cost(double *cost, fg__place_worker *worker,
                                    const fg__place_line *from, const fg__place_line *to)
 {
+  const fg__place_search *search = worker->search;
   fg_status status =
-      fg__place_diffusion_try(cost, &search->diffusion, search->context, from, to);
+      fg__place_diffusion_try(cost, &worker->window, &search->diffusion, NULL, from, to);
   *cost *= search->scale.diffusion * (double)search->weights.inverse_error;
   return status;
 }
@@ -85,14 +85,14 @@ static double touch_penalty(const fg__place_scale *scale, float square)
   return scale->touch * near * near;
 }
 
-double fg__place_line_penalty(const fg__place_search *search, const fg__place_line *line)
+double fg__place_line_penalty(const fg__place_scale *scale, const fg__place_points *near,
+                              const fg__place_line *line)
 {
-  const fg__place_scale *scale = &search->scale;
   double range = scale->crowd_range / scale->lambda, crowd = 0.0, ends = 0.0;
   double sampling = scale->sampling / scale->lambda,
          length = line->length / scale->lambda;
   float square[FG__PLACE_SAMPLES];
-  fg__place_points_nearest(square, &search->beside, line);
+  fg__place_points_nearest(square, near, line);
   for (int n = 0; n < line->count; ++n)
     crowd += (double)line->share[n] * sampling *
              (2.0 * scale->crowding * decay((double)square[n] / (2.0 * range * range)) +
@@ -103,11 +103,19 @@ double fg__place_line_penalty(const fg__place_search *search, const fg__place_li
   return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
 
+/* Fails where a worker has. */
+static fg_status check(const fg__place_search *search, fg_status status)
+{
+  return status == FG_STATUS_OK ? status
+                                : fg__fail_memory(search->context, "readers of arrows",
+                                                  sizeof(fg__place_worker));
+}
+
 fg_status fg__place_gather_whole(fg__place_search *search)
 {
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, search->raster.cells, sizeof all.size);
-  return fg__place_gather(&search->whole, search, &all, -1);
+  return check(search, fg__place_gather(&search->own, &all, -1));
 }
 
 fg_status fg__place_error(fg__place_search *search, double *error)
@@ -118,8 +126,8 @@ fg_status fg__place_error(fg__place_search *search, double *error)
   if (status != FG_STATUS_OK)
     return status;
   fg__place_weights errors = {1.0F, 0.0F, (float)fg__place_reach(search)};
-  double sum = fg__place_cost(NULL, &search->raster, &search->whole.box, &search->whole,
-                              NULL, &errors);
+  const fg__place_contribution *all = &search->own.others;
+  double sum = fg__place_cost(NULL, &search->raster, &all->box, all, NULL, &errors);
   sum += search->scale.diffusion * fg__place_diffusion_sum(&search->diffusion);
   *error = sum / search->scale.count / (2.0 + search->scale.diffusion);
   return FG_STATUS_OK;
@@ -133,10 +141,10 @@ fg_status fg__place_touching(fg__place_search *search, double *share)
     const fg__place_icon *icon = search->icon[n];
     const fg__place_line *line = &icon->line;
     float square[FG__PLACE_SAMPLES];
-    status = gather_near(search, &icon->contribution.box, n);
+    status = check(search, fg__place_find_near(&search->own, &icon->contribution.box, n));
     if (status != FG_STATUS_OK)
       break;
-    fg__place_points_nearest(square, &search->beside, line);
+    fg__place_points_nearest(square, &search->own.beside, line);
     for (int i = 0; i < line->count; ++i) {
       all += (double)line->share[i];
       touching += square[i] < TOUCHING * TOUCHING ? (double)line->share[i] : 0.0;
@@ -163,17 +171,18 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
   fg_status status = fg__place_gather_whole(search);
   if (status == FG_STATUS_OK)
     status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
+  const fg__place_contribution *all = &search->own.others;
   *energy = 0.0;
   if (status == FG_STATUS_OK)
-    *energy = fg__place_cost(NULL, &search->raster, &search->whole.box, &search->whole,
-                             NULL, &search->weights) +
-              search->scale.diffusion * (double)search->weights.inverse_error *
-                  fg__place_diffusion_sum(&search->diffusion);
+    *energy =
+        fg__place_cost(NULL, &search->raster, &all->box, all, NULL, &search->weights) +
+        search->scale.diffusion * (double)search->weights.inverse_error *
+            fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
-    status = gather_near(search, &icon->contribution.box, n);
+    status = check(search, fg__place_find_near(&search->own, &icon->contribution.box, n));
     if (status == FG_STATUS_OK) /* both of a pair pay */
-      *energy += fg__place_line_penalty(search, &icon->line);
+      *energy += fg__place_line_penalty(&search->scale, &search->own.beside, &icon->line);
   }
   return status;
 }

@@ -92,25 +92,32 @@ static fg_status fill(fg__place_search *search)
 }
 
 /* Finds by how much the energy rises when an icon is removed, unless that is known. */
-static fg_status find_removal_cost(fg__place_search *search, int index)
+static fg_status find_removal_cost(void *argument, fg__place_worker *worker, int index)
 {
+  const fg__place_search *search = argument;
   fg__place_icon *icon = search->icon[index];
   const fg__place_box *box = &icon->contribution.box;
   if (icon->has_removal_cost)
     return FG_STATUS_OK;
-  fg_status status = fg__place_gather(&search->others, search, box, index);
+  fg_status status = fg__place_gather(worker, box, index);
   if (status != FG_STATUS_OK)
     return status;
-  double with = fg__place_cost(NULL, &search->raster, box, &search->others,
+  double with = fg__place_cost(NULL, &search->raster, box, &worker->others,
                                &icon->contribution, &search->weights);
   double without =
-      fg__place_cost(NULL, &search->raster, box, &search->others, NULL, &search->weights);
+      fg__place_cost(NULL, &search->raster, box, &worker->others, NULL, &search->weights);
   double diffusion;
-  status = fg__place_diffusion_cost(&diffusion, search, &icon->line, NULL);
+  status = fg__place_diffusion_cost(&diffusion, worker, &icon->line, NULL);
   icon->removal_cost =
-      without - with + diffusion - fg__place_line_penalty(search, &icon->line);
+      without - with + diffusion -
+      fg__place_line_penalty(&search->scale, &worker->beside, &icon->line);
   icon->has_removal_cost = status == FG_STATUS_OK;
   return status;
+}
+
+static fg_status find_removal_costs(fg__place_search *search)
+{
+  return fg__place_share(search, find_removal_cost, search, search->count);
 }
 
 static int least_of(const double *rise, int count)
@@ -146,10 +153,9 @@ fg_status fg__place_thin(fg__place_search *search, int count)
     return fg__fail_memory(search->context, "the removal costs of icons",
                            (size_t)search->count * sizeof *rise);
   while (status == FG_STATUS_OK && search->count > count) {
-    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
-      status = find_removal_cost(search, n);
+    status = find_removal_costs(search);
+    for (int n = 0; n < search->count; ++n)
       rise[n] = search->icon[n]->removal_cost;
-    }
     while (status == FG_STATUS_OK && search->count > count) {
       int least = least_of(rise, search->count);
       if (!(rise[least] < HUGE_VAL))
@@ -167,13 +173,12 @@ fg_status fg__place_thin(fg__place_search *search, int count)
 static fg_status remove_least(fg__place_search *search, double place[3])
 {
   int least = 0;
-  for (int n = 0; n < search->count; ++n) {
-    fg_status status = find_removal_cost(search, n);
-    if (status != FG_STATUS_OK)
-      return status;
+  fg_status status = find_removal_costs(search);
+  if (status != FG_STATUS_OK)
+    return status;
+  for (int n = 1; n < search->count; ++n)
     if (search->icon[n]->removal_cost < search->icon[least]->removal_cost)
       least = n;
-  }
   memcpy(place, search->icon[least]->seed.position, 3 * sizeof *place);
   return fg__place_remove(search, least);
 }

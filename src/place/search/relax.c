@@ -1,6 +1,7 @@
 /* Moves of single icons that lower the energy. */
 #include "place/search/search.h"
 
+#include "base/memory.h"
 #include "base/vector.h"
 
 #include <math.h>
@@ -30,6 +31,9 @@ static const double LEAST_PROMISE = 1e-4;
 
 /* Icons whose seeds are so many lambda from a change are its neighbours. */
 static const double NEIGHBOURS = 1.3;
+
+/* Lines of icons that are visited in the same round are so many lambda apart, about. */
+static const float BETWEEN = 0.5F;
 
 /* The axes of moves: across (in 3D two directions), along, and the two ways. */
 enum { ALONG = 2, WAYS = 3, AXES = 5, MOVES = 2 * AXES };
@@ -126,6 +130,27 @@ static bool move_of(fg__place_seed *out, const fg__place_search *search,
           !is_too_long(scale, out));
 }
 
+/* What a visit has found, which comes true after all of a round. */
+typedef struct fg__place_visit {
+  int index;          /* of the icon */
+  fg__place_box room; /* of its tries, about: those of a round lie apart */
+  bool taken;         /* another line is better: */
+  fg__place_line line;
+  fg__place_contribution contribution;
+  fg__place_window window;
+} visit;
+
+void fg__place_visits_clear(fg__place_search *search)
+{
+  for (size_t n = 0; n < search->visit_count; ++n) {
+    fg__place_contribution_clear(&search->visit[n].contribution);
+    fg__place_window_clear(&search->visit[n].window);
+  }
+  free(search->visit);
+  search->visit = NULL;
+  search->visit_count = 0;
+}
+
 static void swap_contributions(fg__place_contribution *a, fg__place_contribution *b)
 {
   fg__place_contribution kept = *a;
@@ -135,13 +160,14 @@ static void swap_contributions(fg__place_contribution *a, fg__place_contribution
 
 /* The energy of a region without the diffusion reader's errors, from the contributions of
  * all other icons and of a line in place of the icon's. */
-static double region_energy(const fg__place_search *search, const fg__place_box *box,
+static double region_energy(const fg__place_worker *worker, const fg__place_box *box,
                             const fg__place_contribution *contribution,
                             const fg__place_line *line)
 {
-  return fg__place_cost(NULL, &search->raster, box, &search->others, contribution,
+  const fg__place_search *search = worker->search;
+  return fg__place_cost(NULL, &search->raster, box, &worker->others, contribution,
                         &search->weights) +
-         fg__place_line_penalty(search, line);
+         fg__place_line_penalty(&search->scale, &worker->beside, line);
 }
 
 static bool is_same_length(const fg__place_line *a, const fg__place_line *b,
@@ -154,30 +180,31 @@ static bool is_same_length(const fg__place_line *a, const fg__place_line *b,
 /* Shortens the ways of a seed in a free placement to those that its line reaches. A way
  * stays where the line would then be another: where it breaks or ends in a hook it is
  * shortened once more. So a seed always gives its icon's line. */
-static void clip_ways(fg__place_icon *icon, const fg__place_search *search)
+static void clip_ways(fg__place_icon *icon, const fg__place_search *search,
+                      const fg__place_line *line)
 {
   const fg__place_scale *scale = &search->scale;
   for (int k = 0; k < 2 && scale->free; ++k) {
     fg__place_seed clipped = icon->seed;
-    fg__place_line line;
-    clipped.way[k] = icon->line.way[k];
+    fg__place_line other;
+    clipped.way[k] = line->way[k];
     if (!(clipped.way[k] < icon->seed.way[k]))
       continue;
-    fg__place_trace_on(&line, search->domain, scale, &clipped, &icon->steps);
-    if (is_same_length(&line, &icon->line, SAME_WAY * scale->lambda))
+    fg__place_trace_on(&other, search->domain, scale, &clipped, &icon->steps);
+    if (is_same_length(&other, line, SAME_WAY * scale->lambda))
       icon->seed = clipped;
   }
 }
 
 /* Extends a region to hold a box, and gathers the others' contributions to it again. */
-static fg_status extend_region(fg__place_search *search, fg__place_box *region,
+static fg_status extend_region(fg__place_worker *worker, fg__place_box *region,
                                const fg__place_box *by, int index, double *now)
 {
-  const fg__place_icon *icon = search->icon[index];
+  const fg__place_icon *icon = worker->search->icon[index];
   fg__place_box_widen(region, by);
-  fg_status status = fg__place_gather(&search->others, search, region, index);
+  fg_status status = fg__place_gather(worker, region, index);
   if (status == FG_STATUS_OK)
-    *now = region_energy(search, region, &icon->contribution, &icon->line);
+    *now = region_energy(worker, region, &icon->contribution, &icon->line);
   return status;
 }
 
@@ -190,12 +217,12 @@ static bool holds(const fg__place_box *box, const fg__place_box *other)
   return true;
 }
 
-/* The box of an icon's contribution, widened by the step of its moves. */
-static fg__place_box room_of(const fg__place_search *search, const fg__place_icon *icon)
+/* A box widened by the step of an icon's moves. */
+static fg__place_box widened(const fg__place_search *search, fg__place_box box,
+                             double step)
 {
   const fg__place_raster *raster = &search->raster;
-  fg__place_box box = icon->contribution.box;
-  int cells = (int)(icon->step / search->scale.cell) + 1;
+  int cells = (int)(step / search->scale.cell) + 1;
   for (int k = 0; k < raster->dimension; ++k) {
     int low = box.low[k] - cells, end = box.low[k] + box.size[k] + cells;
     box.low[k] = low > 0 ? low : 0;
@@ -204,45 +231,44 @@ static fg__place_box room_of(const fg__place_search *search, const fg__place_ico
   return box;
 }
 
-/* Tries a seed. *rise is what it adds to the energy; it is accepted when that falls. */
-static fg_status attempt(double *rise, bool *taken, fg__place_search *search, int index,
+/* Tries a seed. *rise is what it adds to the energy; it is taken when that falls. */
+static fg_status attempt(double *rise, visit *out, fg__place_worker *worker,
                          const fg__place_seed *seed, fg__place_box *region, double *now)
 {
-  fg__place_icon *icon = search->icon[index];
+  const fg__place_search *search = worker->search;
+  fg__place_icon *icon = search->icon[out->index];
   const bool stays =
       memcmp(seed->position, icon->seed.position, sizeof seed->position) == 0;
   fg__place_line line;
   fg__place_steps elsewhere, *steps = stays ? &icon->steps : &elsewhere;
   fg__place_no_steps(&elsewhere);
-  *taken = false;
   *rise = HUGE_VAL;
   fg__place_trace_on(&line, search->domain, &search->scale, seed, steps);
   if (line.count == 0)
     return FG_STATUS_OK;
-  fg_status status = fg__place_contribution_compute(
-      &search->trial, search->context, &search->raster, &search->scale, &line);
-  if (status == FG_STATUS_OK && !holds(region, &search->trial.box))
-    status = extend_region(search, region, &search->trial.box, index, now);
+  fg_status status = fg__place_contribution_compute(&worker->trial, NULL, &search->raster,
+                                                    &search->scale, &line);
+  if (status == FG_STATUS_OK && !holds(region, &worker->trial.box))
+    status = extend_region(worker, region, &worker->trial.box, out->index, now);
   if (status != FG_STATUS_OK)
     return status;
-  *rise = region_energy(search, region, &search->trial, &line) - *now;
+  *rise = region_energy(worker, region, &worker->trial, &line) - *now;
   double diffusion;
-  status = fg__place_diffusion_cost(&diffusion, search, &icon->line, &line);
+  status = fg__place_diffusion_cost(&diffusion, worker, &icon->line, &line);
   if (status != FG_STATUS_OK)
     return status;
   *rise += diffusion;
   if (*rise < -LEAST_FALL * fabs(*now)) {
-    fg__place_diffusion_keep(&search->diffusion, &icon->line, &line);
-    fg__place_forget_removal_costs(search, &icon->contribution.box);
-    fg__place_forget_removal_costs(search, &search->trial.box);
+    const fg__place_window window = worker->window;
+    worker->window = out->window;
+    out->window = window;
+    swap_contributions(&out->contribution, &worker->trial);
+    out->line = line;
+    out->taken = true;
     if (!stays)
       icon->steps = elsewhere;
     icon->seed = *seed;
-    icon->line = line;
-    swap_contributions(&icon->contribution, &search->trial);
-    search->box[index] = icon->contribution.box;
-    clip_ways(icon, search);
-    *taken = true;
+    clip_ways(icon, search, &line);
   }
   return FG_STATUS_OK;
 }
@@ -266,37 +292,108 @@ static double lowest(double step[AXES], const fg__place_icon *icon, double rise[
 /* Tries the icon's moves in turn, beginning with the one that was taken last, and takes
  * the first that lowers the energy; just after a move that one's opposite does not. Where
  * none does, the one to the minimum of the parabolas through them. */
-static fg_status visit(fg__place_search *search, int index)
+static fg_status make_visit(void *argument, fg__place_worker *worker, int n)
 {
-  fg__place_icon *icon = search->icon[index];
+  const fg__place_search *search = argument;
+  visit *out = &search->visit[n];
+  fg__place_icon *icon = search->icon[out->index];
   const int opposite = icon->has_moved ? icon->move ^ 1 : MOVES;
   double now, rise[AXES][2];
   for (int axis = 0; axis < AXES; ++axis)
     rise[axis][0] = rise[axis][1] = HUGE_VAL;
   fg__place_seed seed;
-  fg__place_box region = room_of(search, icon);
-  fg_status status = extend_region(search, &region, &icon->contribution.box, index, &now);
+  fg__place_box region = widened(search, icon->contribution.box, icon->step);
+  fg_status status =
+      extend_region(worker, &region, &icon->contribution.box, out->index, &now);
   icon->has_moved = false;
   for (int k = 0; k < MOVES && status == FG_STATUS_OK; ++k) {
     const int move = (k + icon->move) % MOVES;
     if (move == opposite || !move_of(&seed, search, icon, move))
       continue;
-    status = attempt(&rise[move / 2][move & 1], &icon->has_moved, search, index, &seed,
-                     &region, &now);
-    if (icon->has_moved) {
+    status = attempt(&rise[move / 2][move & 1], out, worker, &seed, &region, &now);
+    if (out->taken) {
       icon->move = move;
+      icon->has_moved = true;
       icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
       return status;
     }
   }
   double step[AXES], unused;
-  bool taken;
   if (status == FG_STATUS_OK && lowest(step, icon, rise) > LEAST_PROMISE * fabs(now)) {
     seed = moved(search, icon, step);
     if (!is_too_long(&search->scale, &seed))
-      status = attempt(&unused, &taken, search, index, &seed, &region, &now);
+      status = attempt(&unused, out, worker, &seed, &region, &now);
   }
   icon->step *= SHRINKAGE;
+  return status;
+}
+
+/* Takes a visit's line over. */
+static void keep(fg__place_search *search, visit *found)
+{
+  fg__place_icon *icon = search->icon[found->index];
+  if (!found->taken)
+    return;
+  fg__place_diffusion_keep(&search->diffusion, &found->window, &icon->line, &found->line);
+  fg__place_forget_removal_costs(search, &icon->contribution.box);
+  fg__place_forget_removal_costs(search, &found->contribution.box);
+  icon->line = found->line;
+  swap_contributions(&icon->contribution, &found->contribution);
+  search->box[found->index] = icon->contribution.box;
+}
+
+static bool is_apart(const visit *of, int count, const fg__place_box *room)
+{
+  for (int n = 0; n < count; ++n)
+    if (fg__place_boxes_meet(&of[n].room, room))
+      return false;
+  return true;
+}
+
+/* Lists icons that still wait for a visit and lie apart; how many. */
+static int list_round(fg__place_search *search)
+{
+  int count = 0;
+  for (int n = 0; n < search->count; ++n) {
+    fg__place_icon *icon = search->icon[n];
+    if (!icon->waits)
+      continue;
+    const fg__place_box room = widened(
+        search, fg__place_box_around(&search->raster, &icon->line, BETWEEN), icon->step);
+    if (!is_apart(search->visit, count, &room))
+      continue;
+    visit *next = &search->visit[count++];
+    next->index = n;
+    next->room = room;
+    next->taken = icon->waits = false;
+  }
+  return count;
+}
+
+/* Visits all icons that still move, in rounds of those that lie apart; *moving is whether
+ * there are any. */
+static fg_status sweep(fg__place_search *search, bool *moving)
+{
+  const size_t before = search->visit_count;
+  if (!fg__grow((void **)&search->visit, &search->visit_count, (size_t)search->count,
+                sizeof *search->visit))
+    return fg__fail_memory(search->context, "visits of icons",
+                           (size_t)search->count * sizeof *search->visit);
+  for (size_t n = before; n < search->visit_count; ++n)
+    search->visit[n] = (visit){.index = 0};
+  *moving = false;
+  for (int n = 0; n < search->count; ++n) {
+    search->icon[n]->waits =
+        search->icon[n]->step > search->least_step * search->scale.lambda;
+    *moving = *moving || search->icon[n]->waits;
+  }
+  fg_status status = FG_STATUS_OK;
+  int count;
+  while (status == FG_STATUS_OK && (count = list_round(search)) > 0) {
+    status = fg__place_share(search, make_visit, search, count);
+    for (int n = 0; n < count && status == FG_STATUS_OK; ++n)
+      keep(search, &search->visit[n]);
+  }
   return status;
 }
 
@@ -304,16 +401,12 @@ static fg_status relax(fg__place_search *search, int sweeps, bool solve)
 {
   bool moving = true;
   fg_status status = FG_STATUS_OK;
-  for (int sweep = 0; sweep < sweeps && moving && status == FG_STATUS_OK; ++sweep) {
-    moving = false;
+  for (int n = 0; n < sweeps && moving && status == FG_STATUS_OK; ++n) {
     status = fg__check_stop(search->context);
     if (status == FG_STATUS_OK && solve)
       status = fg__place_diffusion_solve(&search->diffusion, search->context, true);
-    for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n)
-      if (search->icon[n]->step > search->least_step * search->scale.lambda) {
-        status = visit(search, n);
-        moving = true;
-      }
+    if (status == FG_STATUS_OK)
+      status = sweep(search, &moving);
   }
   return status;
 }

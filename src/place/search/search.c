@@ -43,8 +43,10 @@ fg_status fg__place_search_create(fg__place_search *out, fg_context *context,
                                   const fg__place_domain *domain, int count, bool free,
                                   fg__place_grain grain)
 {
-  *out =
-      (fg__place_search){.domain = domain, .context = context, .reference_error = 30.0};
+  *out = (fg__place_search){.domain = domain,
+                            .context = context,
+                            .own = {.search = out},
+                            .reference_error = 30.0};
   fg_status status = set_scale(out, count, free, grain);
   if (status != FG_STATUS_OK)
     fg__place_search_clear(out);
@@ -63,12 +65,12 @@ void fg__place_search_clear(fg__place_search *search)
     free_icon(search->icon[n]);
   free(search->icon);
   free(search->box);
-  free(search->near);
   clear_scale(search);
-  fg__place_contribution_clear(&search->others);
-  fg__place_contribution_clear(&search->trial);
-  fg__place_contribution_clear(&search->whole);
-  fg__place_points_clear(&search->beside);
+  fg__place_worker_clear(&search->own);
+  for (size_t n = 0; n < search->beside_count; ++n)
+    fg__place_worker_clear(&search->beside[n]);
+  free(search->beside);
+  fg__place_visits_clear(search);
   *search = (fg__place_search){0};
 }
 
@@ -153,10 +155,11 @@ fg_status fg__place_add(fg__place_search *search, bool *added, const fg__place_s
     status = compute(search, &icon->contribution, &icon->line);
   if (status == FG_STATUS_OK && icon->line.count > 0) {
     double growth;
-    status = fg__place_diffusion_try(&growth, &search->diffusion, search->context, NULL,
-                                     &icon->line);
+    status = fg__place_diffusion_try(&growth, &search->own.window, &search->diffusion,
+                                     search->context, NULL, &icon->line);
     if (status == FG_STATUS_OK)
-      fg__place_diffusion_keep(&search->diffusion, NULL, &icon->line);
+      fg__place_diffusion_keep(&search->diffusion, &search->own.window, NULL,
+                               &icon->line);
   }
   if (status != FG_STATUS_OK || icon->line.count == 0) {
     free_icon(icon);
@@ -173,10 +176,10 @@ fg_status fg__place_remove(fg__place_search *search, int index)
 {
   double growth;
   const fg__place_line *line = &search->icon[index]->line;
-  fg_status status =
-      fg__place_diffusion_try(&growth, &search->diffusion, search->context, line, NULL);
+  fg_status status = fg__place_diffusion_try(
+      &growth, &search->own.window, &search->diffusion, search->context, line, NULL);
   if (status == FG_STATUS_OK) {
-    fg__place_diffusion_keep(&search->diffusion, line, NULL);
+    fg__place_diffusion_keep(&search->diffusion, &search->own.window, line, NULL);
     fg__place_forget_removal_costs(search, &search->icon[index]->contribution.box);
     erase(search, index);
   }

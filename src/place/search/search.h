@@ -3,7 +3,7 @@
 #ifndef FG__PLACE_SEARCH_H
 #define FG__PLACE_SEARCH_H
 
-#include "place/reader/diffusion.h"
+#include "place/search/worker.h"
 
 /* The least step of moves in lambda, and that of a placement's last descent. */
 #define FG__PLACE_LEAST_STEP 0.04
@@ -17,6 +17,7 @@ typedef struct fg__place_icon {
   double step;                         /* of its moves, input coordinates */
   int move;                            /* the last one that was accepted, */
   bool has_moved;                      /* at the last visit */
+  bool waits;                          /* for a visit in the present sweep */
   int identity;          /* stays as the icon moves, and from scale to scale */
   double removal_cost;   /* by how much the energy rises when the icon is removed */
   bool has_removal_cost; /* it is known */
@@ -35,13 +36,13 @@ typedef struct fg__place_search {
   int count;
   size_t capacity, box_capacity;
   int next_identity;
-  double least_step; /* of moves, lambda: below, an icon is no longer moved */
+  double least_step;    /* of moves, lambda: below, an icon is no longer moved */
+  fg__threads *threads; /* that share its work, borrowed; NULL: the caller alone */
   /* Working memory: */
-  fg__place_contribution others, trial, whole;
-  fg__place_points beside; /* samples of the icons that were gathered last */
-  int *near;               /* [near_count] icons that contribute to a box */
-  int near_count;
-  size_t near_capacity;
+  fg__place_worker own, *beside; /* [beside_count] of threads beside the caller */
+  size_t beside_count;
+  struct fg__place_visit *visit; /* [visit_count] */
+  size_t visit_count;
   float *map, *smooth; /* a value a raster cell */
 } fg__place_search;
 
@@ -128,25 +129,13 @@ static inline double fg__place_reach(const fg__place_search *search)
   return search->scale.reach / search->scale.lambda;
 }
 
-/* The penalties of a line: those of its length, and those for lines near it, which are
- * the icons gathered last. */
-double fg__place_line_penalty(const fg__place_search *search, const fg__place_line *line);
-
-/* What line `to` in place of line `from` (NULL: none) adds to the weighted errors of the
- * diffusion reader. MEMORY. */
-fg_status fg__place_diffusion_cost(double *cost, fg__place_search *search,
-                                   const fg__place_line *from, const fg__place_line *to);
+void fg__place_visits_clear(fg__place_search *search);
 
 /* Marks the removal costs of icons that contribute to a box as unknown, before or after a
  * change there. */
 void fg__place_forget_removal_costs(fg__place_search *search, const fg__place_box *box);
 
-/* The sum of the contributions of all icons but `except` (-1: none) to a box;
- * search->beside gets the samples of those that reach it. MEMORY. */
-fg_status fg__place_gather(fg__place_contribution *out, fg__place_search *search,
-                           const fg__place_box *box, int except);
-
-/* Sets search->whole to the contribution of all icons to all cells. MEMORY. */
+/* Sets search->own.others to the contribution of all icons to all cells. MEMORY. */
 fg_status fg__place_gather_whole(fg__place_search *search);
 
 /* A seed for a new icon, and how much that would lower the energy. */

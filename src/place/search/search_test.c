@@ -151,10 +151,10 @@ static double region_energy_of(setting *s, const fg__place_box *box, int index)
 {
   fg__place_search *search = &s->search;
   fg__place_icon *icon = search->icon[index];
-  assert_int_equal(fg__place_gather(&search->others, search, box, index), FG_STATUS_OK);
-  return fg__place_cost(NULL, &search->raster, box, &search->others, &icon->contribution,
-                        &search->weights) +
-         fg__place_line_penalty(search, &icon->line);
+  assert_int_equal(fg__place_gather(&search->own, box, index), FG_STATUS_OK);
+  return fg__place_cost(NULL, &search->raster, box, &search->own.others,
+                        &icon->contribution, &search->weights) +
+         fg__place_line_penalty(&search->scale, &search->own.beside, &icon->line);
 }
 
 /* Icons move one after the other, most of them by moves that the search would not take:
@@ -220,9 +220,8 @@ static double penalty_beside(setting *s, const fg__place_line *line, int except)
 {
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, s->search.raster.cells, sizeof all.size);
-  assert_int_equal(fg__place_gather(&s->search.others, &s->search, &all, except),
-                   FG_STATUS_OK);
-  return fg__place_line_penalty(&s->search, line);
+  assert_int_equal(fg__place_gather(&s->search.own, &all, except), FG_STATUS_OK);
+  return fg__place_line_penalty(&s->search.scale, &s->search.own.beside, line);
 }
 
 static void crowding_is_dear_and_so_are_short_lines(void **state)
