@@ -32,7 +32,8 @@ static void check_lines(const fg_placement *placement, const fg_icons *icons,
     const double clear_of =
         fg__place_least_clearance(search->domain, &search->scale, icon->seed);
     for (int i = 1; i < icon->point_count; ++i) {
-      assert_true(fg__place_clearance(search->domain, icon->points[i]) > 0.9 * clear_of);
+      /* between two samples of the search's line it may be nearer */
+      assert_true(fg__place_clearance(search->domain, icon->points[i]) > 0.75 * clear_of);
       double middle[3], piece[3], flow[3];
       for (int k = 0; k < 3; ++k) {
         middle[k] = (icon->points[i][k] + icon->points[i - 1][k]) / 2;
