@@ -129,7 +129,7 @@ static void trace_side(side *line, tracing *with, const tip *seed, double way,
   while (line->count < FG__PLACE_SAMPLES) {
     const tip *from = &line->sample[line->count - 1];
     tip *next = &line->sample[line->count];
-    double done = line->at[line->count - 1], step = fmin(sampling, way - done);
+    double done = line->at[line->count - 1], step = fg__least(sampling, way - done);
     int halving = 0;
     if (step < 0.05 * sampling)
       return;
@@ -153,7 +153,7 @@ double fg__place_least_clearance(const fg__place_domain *domain,
                                  const fg__place_scale *scale, const double position[3])
 {
   const fg__place_subdomain *subdomain = fg__place_subdomain_at(domain, position);
-  return subdomain ? fmin(scale->clearance, 0.5 * subdomain->widest) : HUGE_VAL;
+  return subdomain ? fg__least(scale->clearance, 0.5 * subdomain->widest) : HUGE_VAL;
 }
 
 static double bend_between(const side *line, int first, int last)
@@ -287,7 +287,7 @@ bool fg__place_close(double *gap, double *diameter, const fg__place_domain *doma
       return false;
     now = next;
     *gap = fg__distance(now.at.position, start);
-    *diameter = fmax(*diameter, *gap);
+    *diameter = fg__most(*diameter, *gap);
     if (fg__length(now.turned) >= 2.0 * FG__PLACE_PI)
       return true;
   }

@@ -51,19 +51,19 @@ bool fg__place_move(fg__place_tracing *with, fg__place_tip *out,
   double most = LONGEST_STEP * with->domain->data_step;
   *out = *from;
   for (int n = 0; n < MOST_STEPS && left > 0.0; ++n) {
-    double step = fmin(fmin(with->step, most), left), error;
+    double step = fg__least(fg__least(with->step, most), left), error;
     fg__place_tip next = *out;
     if (!try_step(with, &next, &error, out, sign * step))
       return false;
     double grow = error > 0.0 ? 0.9 * sqrt(with->error / error) : 2.0;
     if (error > with->error && n + 1 < MOST_STEPS / 2) {
-      with->step = step * fmax(0.3, grow);
+      with->step = step * fg__most(0.3, grow);
       continue;
     }
     if (step < left || grow < 1.0) /* one cut short by the sample says little */
-      with->step = step * fmin(fmax(grow, 0.5), 2.0);
+      with->step = step * fg__least(fg__most(grow, 0.5), 2.0);
     else
-      with->step = fmax(with->step, step * fmin(grow, 2.0));
+      with->step = fg__most(with->step, step * fg__least(grow, 2.0));
     if (fg__dot(next.direction, from->direction) < with->least_cosine)
       return false;
     *out = next;

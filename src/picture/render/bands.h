@@ -3,19 +3,9 @@
 #define FG__BANDS_H
 
 #include "base/context.h"
+#include "base/vector.h"
 
 enum { FG__BAND = 8 }; /* rows */
-
-/* fmin and fmax of what is not NaN: in inner loops a call takes longer. */
-static inline double fg__least(double a, double b)
-{
-  return a < b ? a : b;
-}
-
-static inline double fg__most(double a, double b)
-{
-  return a > b ? a : b;
-}
 
 /* The rows that a triangle may touch; first > last: none. */
 typedef struct fg__band_rows {

@@ -1,6 +1,7 @@
 #include "place/domain/domain.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "field/field.h"
 #include "field/still.h"
 #include "place/domain/distance.h"
@@ -89,36 +90,47 @@ const fg__place_subdomain *fg__place_subdomain_at(const fg__place_domain *domain
   return subdomain ? &domain->subdomains[subdomain - 1] : NULL;
 }
 
+/* Between four cells of a plane. */
+static double between(const float *at, size_t right, size_t up, const double inside[2])
+{
+  const double lower = (double)at[0] + inside[0] * ((double)at[right] - (double)at[0]);
+  const double upper =
+      (double)at[up] + inside[0] * ((double)at[up + right] - (double)at[up]);
+  return lower + inside[1] * (upper - lower);
+}
+
+/* A cell of the map along axis k, between whose centre and the next one's a point lies,
+ * and the point's place between them. */
+static int cell_before(double *inside, const fg__place_domain *domain, int k, double x)
+{
+  const int last = domain->cells[k] - 1;
+  double place = (x - domain->low[k]) / domain->spacing - 0.5;
+  place = place < 0.0 ? 0.0 : place < last ? place : last;
+  const int cell = (int)place < last ? (int)place : last > 0 ? last - 1 : 0;
+  *inside = place - cell;
+  return cell;
+}
+
 double fg__place_clearance(const fg__place_domain *domain, const double position[3])
 {
   if (!is_in_box(domain, position))
     return 0.0;
-  size_t base = 0, stride = 1, step[3] = {0};
+  const int *cells = domain->cells;
   double inside[3] = {0}, frame = HUGE_VAL;
+  int cell[3] = {0};
   for (int k = 0; k < domain->dimension; ++k) {
-    double place = (position[k] - domain->low[k]) / domain->spacing - 0.5;
-    int last = domain->cells[k] - 1;
-    place = place < 0.0 ? 0.0 : place < last ? place : last;
-    int cell = (int)place < last ? (int)place : last > 0 ? last - 1 : 0;
-    inside[k] = place - cell;
-    step[k] = last > 0 ? stride : 0;
-    base += (size_t)cell * stride;
-    stride *= (size_t)domain->cells[k];
-    frame =
-        fmin(frame, fmin(position[k] - domain->low[k], domain->high[k] - position[k]));
+    cell[k] = cell_before(&inside[k], domain, k, position[k]);
+    frame = fg__least(
+        frame, fg__least(position[k] - domain->low[k], domain->high[k] - position[k]));
   }
-  double sum = 0.0;
-  for (int corner = 0; corner < 1 << domain->dimension; ++corner) {
-    double weight = 1.0;
-    size_t cell = base;
-    for (int k = 0; k < domain->dimension; ++k) {
-      bool upper = corner >> k & 1;
-      weight *= upper ? inside[k] : 1.0 - inside[k];
-      cell += upper ? step[k] : 0;
-    }
-    sum += weight * (double)domain->clearance[cell];
-  }
-  return fmin(sum, frame);
+  const size_t row = (size_t)cells[0], plane = row * (size_t)cells[1];
+  const size_t right = cells[0] > 1, up = cells[1] > 1 ? row : 0;
+  const float *at = domain->clearance + (size_t)cell[2] * plane + (size_t)cell[1] * row +
+                    (size_t)cell[0];
+  double value = between(at, right, up, inside);
+  if (domain->dimension == 3 && cells[2] > 1)
+    value += inside[2] * (between(at + plane, right, up, inside) - value);
+  return fg__least(value, frame);
 }
 
 double fg__place_weight(const fg__place_domain *domain, double speed)
@@ -166,14 +178,14 @@ static void choose_map(fg__place_domain *domain)
                                               : arrays->axis[k][size - 1];
     const int intervals = arrays->period[k] > 0.0 ? size : size - 1;
     domain->data_step =
-        fmin(domain->data_step, (domain->high[k] - domain->low[k]) / intervals);
+        fg__least(domain->data_step, (domain->high[k] - domain->low[k]) / intervals);
   }
   crop(domain);
   for (int k = 0; k < domain->dimension; ++k)
-    longest = fmax(longest, domain->high[k] - domain->low[k]);
+    longest = fg__most(longest, domain->high[k] - domain->low[k]);
   int fewest = domain->dimension == 2 ? FEWEST_2D : FEWEST_3D;
   int most = domain->dimension == 2 ? MOST_2D : MOST_3D;
-  double wanted = fmin(fmax(2.0 * longest / domain->data_step, fewest), most);
+  double wanted = fg__least(fg__most(2.0 * longest / domain->data_step, fewest), most);
   domain->spacing = longest / floor(wanted);
   for (int k = 0; k < 3; ++k) {
     double length = domain->high[k] - domain->low[k];
@@ -187,7 +199,7 @@ static void cell_center(const fg__place_domain *domain, const int at[3], double 
   for (int k = 0; k < 3; ++k)
     center[k] = domain->low[k] + (at[k] + 0.5) * domain->spacing;
   for (int k = 0; k < domain->dimension; ++k) /* the last cells may stick out */
-    center[k] = fmin(center[k], domain->high[k]);
+    center[k] = fg__least(center[k], domain->high[k]);
 }
 
 /* Of numbers that are not negative the one that `rank` others come before, found by
@@ -261,8 +273,8 @@ static fg_status measure_speeds(fg__place_domain *domain, fg_context *context,
       weights += fg__place_weight(domain, (double)speed[n]);
   double cell = pow(domain->spacing, domain->dimension);
   domain->whole = cell * (double)count;
-  domain->measure = fmax(LEAST_SHARE * box_measure(domain),
-                         cell * weights / fg__place_weight(domain, domain->top));
+  domain->measure = fg__most(LEAST_SHARE * box_measure(domain),
+                             cell * weights / fg__place_weight(domain, domain->top));
   return FG_STATUS_OK;
 }
 
@@ -280,7 +292,7 @@ static void fill_subdomain(fg__place_domain *domain, size_t first, int number,
   while (depth > 0) {
     size_t cell = stack[--depth], rest = cell;
     subdomain->measure += cell_measure;
-    subdomain->widest = fmax(subdomain->widest, (double)domain->clearance[cell]);
+    subdomain->widest = fg__most(subdomain->widest, (double)domain->clearance[cell]);
     for (int k = 0; k < domain->dimension; ++k) {
       int at = (int)(rest % (size_t)domain->cells[k]);
       rest /= (size_t)domain->cells[k];
@@ -318,7 +330,7 @@ static fg_status number_subdomains(fg__place_domain *domain, fg_context *context
     fill_subdomain(domain, n, domain->subdomain_count, stack);
     fg__place_subdomain *last = &domain->subdomains[domain->subdomain_count - 1];
     for (int k = 0; k < domain->dimension; ++k) /* thinner than a cell */
-      last->widest = fmin(last->widest, 0.5 * (domain->high[k] - domain->low[k]));
+      last->widest = fg__least(last->widest, 0.5 * (domain->high[k] - domain->low[k]));
   }
   free(stack);
   return status;

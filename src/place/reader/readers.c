@@ -1,6 +1,7 @@
 #include "place/reader/readers.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "place/reader/rows.h"
 
 #include <math.h>
@@ -30,8 +31,8 @@ static double smallest_subdomain(const fg__place_domain *domain,
   const double least = domain->measure / scale->count *
                        (domain->dimension == 2 ? SMALLEST_PART_2D : SMALLEST_PART_3D);
   for (int n = 0; n < domain->subdomain_count; ++n)
-    largest = fmax(largest, domain->subdomains[n].measure);
-  return fmin(least, largest);
+    largest = fg__most(largest, domain->subdomains[n].measure);
+  return fg__least(least, largest);
 }
 
 static void fill_raster(fg__place_raster *raster, const fg__place_domain *domain,
@@ -152,8 +153,9 @@ fg__place_box fg__place_box_around(const fg__place_raster *raster,
       continue;
     float least = line->position[k][0], most = least;
     for (int n = 1; n < line->count; ++n) {
-      least = fminf(least, line->position[k][n]);
-      most = fmaxf(most, line->position[k][n]);
+      const float at = line->position[k][n];
+      least = at < least ? at : least;
+      most = at > most ? at : most;
     }
     int low = (int)((least - distance) / raster->cell);
     int high = (int)((most + distance) / raster->cell) + 1;

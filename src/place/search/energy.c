@@ -2,6 +2,7 @@
 #include "place/search/search.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -74,14 +75,16 @@ static double decay(double x)
 /* A head that touches another arrow's tail makes one arrow of two. */
 static double end_penalty(const fg__place_scale *scale, float square)
 {
-  double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->end_gap);
+  double near =
+      fg__most(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->end_gap);
   return scale->ends * near * near;
 }
 
 /* A line that touches another one. */
 static double touch_penalty(const fg__place_scale *scale, float square)
 {
-  double near = fmax(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->touch_gap);
+  double near =
+      fg__most(0.0, 1.0 - sqrt((double)square) * scale->lambda / scale->touch_gap);
   return scale->touch * near * near;
 }
 
@@ -99,7 +102,7 @@ double fg__place_line_penalty(const fg__place_scale *scale, const fg__place_poin
               touch_penalty(scale, square[n]));
   if (line->count > 0)
     ends = end_penalty(scale, square[0]) + end_penalty(scale, square[line->count - 1]);
-  double brief = fmax(0.0, BRIEF - length);
+  double brief = fg__most(0.0, BRIEF - length);
   return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
 
@@ -159,7 +162,7 @@ fg_status fg__place_set_reference_error(fg__place_search *search)
   fg_status status = fg__place_error(search, &search->reference_error);
   if (status != FG_STATUS_OK)
     return status;
-  search->reference_error = fmax(search->reference_error, LEAST_ERROR);
+  search->reference_error = fg__most(search->reference_error, LEAST_ERROR);
   search->weights.inverse_error = (float)(1.0 / search->reference_error);
   for (int n = 0; n < search->count; ++n)
     search->icon[n]->has_removal_cost = false;

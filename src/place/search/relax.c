@@ -80,7 +80,7 @@ static void place_along(double out[3], const fg__place_search *search,
 static void slide(double way[2], double step, double shortest)
 {
   const int behind = step > 0.0 ? 0 : 1;
-  const double most = fmin(fabs(step), fmax(way[behind] - shortest, 0.0));
+  const double most = fg__least(fabs(step), fg__most(way[behind] - shortest, 0.0));
   way[behind] -= most;
   way[1 - behind] += most;
 }
@@ -103,7 +103,8 @@ static fg__place_seed moved(const fg__place_search *search, const fg__place_icon
   if (search->scale.free)
     slide(seed.way, step[ALONG], SHORTEST_WAY * search->scale.lambda);
   for (int n = 0; n < 2 && search->scale.free; ++n)
-    seed.way[n] = fmax(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
+    seed.way[n] =
+        fg__most(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
   return seed;
 }
 
@@ -314,7 +315,7 @@ static fg_status make_visit(void *argument, fg__place_worker *worker, int n)
     if (out->taken) {
       icon->move = move;
       icon->has_moved = true;
-      icon->step = fmin(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
+      icon->step = fg__least(GROWTH * icon->step, LARGEST_STEP * search->scale.lambda);
       return status;
     }
   }
@@ -430,7 +431,7 @@ void fg__place_reactivate(fg__place_search *search, const double place[3], doubl
     for (int k = 0; k < 3; ++k)
       way[k] = icon->seed.position[k] - place[k];
     if (fg__dot(way, way) < near * near)
-      icon->step = fmax(icon->step, step * search->scale.lambda);
+      icon->step = fg__most(icon->step, step * search->scale.lambda);
   }
 }
 
