@@ -2,10 +2,12 @@
 
 #include "folder/scale_files.h"
 
-fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *icons)
+fg_status placing_score(fg_context *context, const run_settings *settings,
+                        const fg_field *field, fg_icons *icons)
 {
   fg_score score;
-  fg_score_options options = {.lengths = FG_SCORE_FREE, .readers_only = true};
+  fg_score_options options = {
+      .lengths = FG_SCORE_FREE, .threads = settings->work.threads, .readers_only = true};
   fg_status status = fg_icons_score(&score, context, field, icons, &options);
   if (!status)
     fg_icons_keep_score(icons, &score);
@@ -47,7 +49,8 @@ fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
     status =
         fg_run_place(out, placing->context, placing->placement, count, snapshot->density,
                      settings->start || settings->tolerance > 0.0, finer);
-  return status ? status : placing_score(placing->context, placing->field, *out);
+  return status ? status
+                : placing_score(placing->context, settings, placing->field, *out);
 }
 
 fg_status placing_regions(fg_density **out, const cli_placing *placing)

@@ -32,7 +32,8 @@ fg_status placing_make(fg_icons **out, cli_placing *placing, int count,
 fg_status placing_regions(fg_density **out, const cli_placing *placing);
 
 /* Stores errors (score.h) with icons; nothing where the field cannot be scored. */
-fg_status placing_score(fg_context *context, const fg_field *field, fg_icons *icons);
+fg_status placing_score(fg_context *context, const run_settings *settings,
+                        const fg_field *field, fg_icons *icons);
 
 /* Finds the smallest number of arrows that satisfies --tolerance. Returns an exit
  * code. */

@@ -232,7 +232,8 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
   else if (!snapshot->icons)
     status = make_icons(maker, snapshot);
   if (!status && !settings_place(maker->settings) && fg_icons_count(snapshot->icons) > 0)
-    status = placing_score(maker->context, maker->field, snapshot->icons);
+    status =
+        placing_score(maker->context, maker->settings, maker->field, snapshot->icons);
   const fg_icons *icons = snapshot->icons;
   if (!status)
     status = write_icons(maker, index, icons);

@@ -26,7 +26,7 @@ typedef struct fg_score_options {
   double ink;             /* upper bound of fg_score.ink: lines are cut, about their
                              middles, to one greatest length [no limit] */
   bool readers_only;      /* only the readers, ink and lengths: the rest becomes NaN */
-  int threads;            /* the result does not depend on it [1] */
+  int threads;            /* the result does not depend on it [all cores] */
 } fg_score_options;
 
 /* A reader's angle to the field, degrees: of every cell of a raster where the field moves

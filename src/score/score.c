@@ -146,8 +146,8 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
                .count = options->count   ? options->count
                         : icon_count > 0 ? icon_count
                                          : 1};
-  status =
-      fg__threads_create(&s.threads, context, options->threads ? options->threads : 1);
+  status = fg__threads_create(
+      &s.threads, context, options->threads ? options->threads : fg__threads_available());
   if (status == FG_STATUS_OK)
     status = score(&s, out, context, field, icons);
   fg__harmonic_clear(&s.harmonic);
