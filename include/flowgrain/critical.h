@@ -16,6 +16,7 @@ typedef enum fg_critical_kind {
   FG_CRITICAL_SOURCE,
   FG_CRITICAL_SINK
 } fg_critical_kind;
+enum { FG_CRITICAL_KINDS = 5 };
 
 /* Directions are those of the plane, x to the right and y upwards, as a picture has it.
  */
@@ -58,6 +59,9 @@ FG_API int fg_critical_points_count(const fg_critical_points *points);
 /* Point `index`, from 0 to count - 1, borrowed; NULL for others. */
 FG_API const fg_critical_point *fg_critical_points_at(const fg_critical_points *points,
                                                       int index);
+
+/* The word of a kind: "saddle", "centre", "spiral", "source" or "sink". */
+FG_API const char *fg_critical_kind_word(fg_critical_kind kind);
 
 /* The length lambda of the scale. */
 FG_API double fg_critical_points_length(const fg_critical_points *points);

@@ -1,10 +1,15 @@
-#include "critical/list.h"
+#include "flowgrain/critical.h"
 
 #include "base/memory.h"
 #include "critical/directions.h"
 
 #include <stdlib.h>
-#include <string.h>
+
+struct fg_critical_points {
+  fg_critical_point *point;
+  int count;
+  double length; /* lambda */
+};
 
 enum { DEFAULT_COUNT = 40, MOST_COUNT = 1000000 };
 
@@ -151,18 +156,6 @@ fg_status fg_critical_points_find(fg_critical_points **out, fg_context *context,
   return status;
 }
 
-fg_status fg__critical_points_copy(fg_critical_points **out, fg_context *context,
-                                   const fg_critical_points *points)
-{
-  const size_t count = (size_t)points->count;
-  fg_status status = create(out, context, count, points->length);
-  if (status == FG_STATUS_OK) {
-    memcpy((*out)->point, points->point, count * sizeof *points->point);
-    (*out)->count = points->count;
-  }
-  return status;
-}
-
 void fg_critical_points_destroy(fg_critical_points *points)
 {
   if (points)
@@ -180,6 +173,13 @@ const fg_critical_point *fg_critical_points_at(const fg_critical_points *points,
 {
   return index >= 0 && index < fg_critical_points_count(points) ? &points->point[index]
                                                                 : NULL;
+}
+
+const char *fg_critical_kind_word(fg_critical_kind kind)
+{
+  static const char *const words[FG_CRITICAL_KINDS] = {"saddle", "centre", "spiral",
+                                                       "source", "sink"};
+  return words[kind];
 }
 
 double fg_critical_points_length(const fg_critical_points *points)
