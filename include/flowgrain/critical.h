@@ -43,11 +43,12 @@ typedef struct fg_critical_points fg_critical_points;
  * its directions, smoothed by a Gaussian of lambda / 4, by the index of Poincare; closest
  * first, pairs nearer than lambda / 2 are merged or, of opposite index, cancelled, as for
  * fg_score.critical_f1. None lies where less than 84 % of the Gaussian is inside of the
- * domain: nearer than lambda / 4 to a straight boundary. Periodic sides are boundaries.
- * `options` may be NULL. ARGUMENT (options out of range), UNSUPPORTED (a field in 3D, a
- * slab of one, a domain that fills less than 1/256 of its box), MEMORY, STOPPED.
- * Definitions: docs/method/features.md; after Helman and Hesselink 1989 (kinds) and
- * Tricoche, Scheuermann and Hagen 2000 (merging). */
+ * domain: nearer than lambda / 4 to a straight boundary; two vortices nearer than lambda
+ * / 2 that turn in opposite senses are none. Periodic sides are boundaries. `options` may
+ * be NULL. ARGUMENT (options out of range), UNSUPPORTED (a field in 3D, a slab of one, a
+ * domain that fills less than 1/256 of its box), MEMORY, STOPPED. Definitions:
+ * docs/method/features.md; after Helman and Hesselink 1989 (kinds) and Tricoche,
+ * Scheuermann and Hagen 2000 (merging). */
 FG_API fg_status fg_critical_points_find(fg_critical_points **out, fg_context *context,
                                          const fg_field *field,
                                          const fg_critical_options *options);
@@ -60,7 +61,8 @@ FG_API int fg_critical_points_count(const fg_critical_points *points);
 FG_API const fg_critical_point *fg_critical_points_at(const fg_critical_points *points,
                                                       int index);
 
-/* The word of a kind: "saddle", "centre", "spiral", "source" or "sink". */
+/* The word of a kind: "saddle", "centre", "spiral", "source" or "sink"; NULL for
+ * others. */
 FG_API const char *fg_critical_kind_word(fg_critical_kind kind);
 
 /* The length lambda of the scale. */

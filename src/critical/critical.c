@@ -45,6 +45,13 @@ static int sign_of(double x)
   return (x > 0.0) - (x < 0.0);
 }
 
+/* A vortex beside one that turns the other way, as one point, has none. */
+static bool has_kind(const fg__point *point)
+{
+  const double(*g)[2] = point->gradient;
+  return point->index < 0 || fabs(g[0][0] + g[1][1]) + fabs(g[1][0] - g[0][1]) > 0.0;
+}
+
 static fg_critical_point classify(const fg__point *point)
 {
   const double(*g)[2] = point->gradient;
@@ -98,7 +105,7 @@ static fg_status find(fg_critical_points **out, fg_context *context,
   if (status == FG_STATUS_OK)
     status = create(out, context, fg__points_left(&found), length);
   for (size_t n = 0; n < found.count && status == FG_STATUS_OK; ++n)
-    if (!found.point[n].gone &&
+    if (!found.point[n].gone && has_kind(&found.point[n]) &&
         fg__directions_share(&directions, found.point[n].at) >= LEAST_SHARE)
       (*out)->point[(*out)->count++] = classify(&found.point[n]);
   fg__points_clear(&found);
@@ -179,7 +186,7 @@ const char *fg_critical_kind_word(fg_critical_kind kind)
 {
   static const char *const words[FG_CRITICAL_KINDS] = {"saddle", "centre", "spiral",
                                                        "source", "sink"};
-  return words[kind];
+  return (unsigned)kind < FG_CRITICAL_KINDS ? words[kind] : NULL;
 }
 
 double fg_critical_points_length(const fg_critical_points *points)

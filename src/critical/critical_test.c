@@ -134,6 +134,33 @@ static void a_saddle_and_a_vortex_cancel_at_a_large_scale(void **state)
   fg_critical_points_destroy(points);
 }
 
+/* Two vortices at a distance of twice APART that turn in opposite senses, a jet between
+ * them: stream function x exp(-r^2 / (2 APART^2)). */
+static void dipole(const double position[3], double v[3])
+{
+  const double x = (position[0] + 1) / APART, y = (position[1] - 7) / APART;
+  v[0] = -x * y;
+  v[1] = x * x - 1;
+}
+
+static void a_dipole_is_two_vortices_or_nothing(void **state)
+{
+  for (int quarters = 4; quarters <= 24; ++quarters) {
+    fg_critical_points *points = points_of(
+        *state, &BOX, dipole, &(fg_critical_options){.length = 0.25 * quarters * APART});
+    const bool apart = quarters < 16;
+    assert_int_equal(fg_critical_points_count(points), apart ? 2 : 0);
+    for (int n = 0; n < 2 && apart; ++n) {
+      const fg_critical_point *point = fg_critical_points_at(points, n);
+      const int sense = point->at[0] > -1 ? 1 : -1;
+      assert_int_equal(point->kind, FG_CRITICAL_CENTRE);
+      assert_int_equal(point->sense, sense);
+      assert_at(point, -1 + sense * APART, 7, 0.03);
+    }
+    fg_critical_points_destroy(points);
+  }
+}
+
 /* Turns a field by 90 degrees (sign 1), or mirrors it across x = y (sign -1). */
 static double turning;
 
@@ -276,6 +303,7 @@ static void what_makes_no_sense_is_refused(void **state)
                    FG_STATUS_UNSUPPORTED);
   assert_non_null(strstr(fg_context_message(*state), "3D"));
   assert_int_equal(fg_critical_points_count(NULL), 0);
+  assert_null(fg_critical_kind_word((fg_critical_kind)FG_CRITICAL_KINDS));
   fg_field_destroy(field);
   fg_field_destroy(space);
 }
@@ -286,6 +314,7 @@ int main(void)
       CASE(linear_fields_have_the_kind_of_their_matrix),
       CASE(a_saddle_tells_where_it_flows_out_and_in),
       CASE(a_saddle_and_a_vortex_cancel_at_a_large_scale),
+      CASE(a_dipole_is_two_vortices_or_nothing),
       CASE(points_turn_and_are_mirrored_with_the_field),
       CASE(none_lies_where_the_smoothing_reaches_nothing),
       CASE(vortex3_has_its_vortices),

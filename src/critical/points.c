@@ -128,6 +128,16 @@ static fg_status push_pairs(pairs *heap, fg_context *context, const fg__point *p
   return FG_STATUS_OK;
 }
 
+/* The sums of gradients of points that turn or flow alike. */
+static void add_gradients(fg__point *sum, const fg__point *a, const fg__point *b)
+{
+  const double(*g)[2] = a->gradient, (*h)[2] = b->gradient;
+  const double alike = (g[0][0] + g[1][1]) * (h[0][0] + h[1][1]) +
+                       (g[1][0] - g[0][1]) * (h[1][0] - h[0][1]);
+  for (int k = 0; k < 4 && (alike > 0.0 || sum->index < 0); ++k)
+    sum->gradient[k / 2][k % 2] = g[k / 2][k % 2] + h[k / 2][k % 2];
+}
+
 static fg_status merge_pair(fg__points *points, pairs *heap, fg_context *context,
                             const pair *closest)
 {
@@ -136,11 +146,9 @@ static fg_status merge_pair(fg__points *points, pairs *heap, fg_context *context
   a->gone = b->gone = true;
   if (a->index != b->index)
     return FG_STATUS_OK;
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < 2; ++k)
     both.at[k] = 0.5 * (a->at[k] + b->at[k]);
-    for (int i = 0; i < 2; ++i)
-      both.gradient[k][i] = a->gradient[k][i] + b->gradient[k][i];
-  }
+  add_gradients(&both, a, b);
   const size_t place = points->count;
   fg_status status = fg__points_add(points, context, &both);
   return status != FG_STATUS_OK ? status

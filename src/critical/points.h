@@ -9,7 +9,8 @@
 typedef struct fg__point {
   double at[2];
   int index;             /* Poincare's: 1 or -1 */
-  double gradient[2][2]; /* of component i along axis k; added up by merging */
+  double gradient[2][2]; /* of component i along axis k; added up by merging, but 0
+                             where two turn or flow in opposite senses */
   bool gone;             /* merged or cancelled */
   size_t next;           /* in its bucket; SIZE_MAX: none */
 } fg__point;

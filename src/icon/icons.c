@@ -140,7 +140,8 @@ const fg_score *fg_icons_kept_score(const fg_icons *icons)
 
 void fg_icons_keep_critical(fg_icons *icons, fg_critical_points *points)
 {
-  fg_critical_points_destroy(icons->critical);
+  if (points != icons->critical)
+    fg_critical_points_destroy(icons->critical);
   icons->critical = points;
 }
 
