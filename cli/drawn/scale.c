@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "drawn/background.h"
+#include "drawn/features.h"
 #include "folder/file.h"
 #include "folder/scale_files.h"
 #include "option/validation.h"
@@ -246,6 +247,8 @@ int drawn_scale_read(drawn_scale *scale, fg_context *context,
     code = read_field(run, context, settings);
   fg_status status =
       code ? FG_STATUS_OK : fg_icons_project(&scale->icons, context, run->field);
+  if (!code && !status)
+    status = features_add(context, run->field, scale->icons, &settings->picture, 0);
   if (status)
     code = complain_of(context, status, scale->file ? scale->file : run->folder);
   if (is_on_another_map(settings)) /* the recorded error is of the run's map */

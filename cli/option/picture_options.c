@@ -84,6 +84,9 @@ static const option_entry picture_entries[] = {
      .help = "in 2D, of clusters: mark each spine by dots, and each centre by a ring"},
     {"centers", 0, NULL, RUNS, OPTION_FLAG, PICTURE(centers),
      .help = "in 2D, of clusters: mark each centre by a ring"},
+    {"features", 0, NULL, RUNS | COMMAND_DRAW, OPTION_FLAG, PICTURE(features),
+     .help = "in 2D: mark saddles, centres, spirals, sources and sinks of the flow at "
+             "the scale of as many arrows; run writes them into GeoJSON, too"},
     {"no-arrows", 0, NULL, RUNS, OPTION_FLAG, PICTURE(no_arrows),
      .help = "in 2D: show clusters, and leave the arrows out of the picture; --tint, "
              "--skeletons and the others remain"},

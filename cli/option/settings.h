@@ -73,7 +73,7 @@ typedef struct picture_settings {
   double speed_range[2]; /* equal: not given */
   double background_fade;
   bool no_keys, outline_text;
-  bool tint, skeletons, centers, no_arrows, no_frame, transparent;
+  bool tint, skeletons, centers, features, no_arrows, no_frame, transparent;
   bool surfaces;
   bool no_coast, borders;
   const char *land;           /* a colour */

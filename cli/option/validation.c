@@ -31,6 +31,7 @@ int refuse_other_dimension(const char *command, const picture_settings *settings
       {"background", settings->background != 0},
       {"skeletons", settings->skeletons},
       {"centers", settings->centers},
+      {"features", settings->features},
       {"no-arrows", settings->no_arrows},
       {"mask-color", settings->mask_color != NULL},
       {"tint-color", settings->tint_color != NULL},

@@ -110,6 +110,14 @@ static void add_error(cJSON *scale, const fg_score *score)
   add_reader(error, "inverse_distance", &score->inverse_distance);
 }
 
+static void add_features(cJSON *scale, const int count[FG_CRITICAL_KINDS])
+{
+  cJSON *features = cJSON_AddObjectToObject(scale, "features");
+  for (int k = 0; k < FG_CRITICAL_KINDS; ++k)
+    cJSON_AddNumberToObject(features, fg_critical_kind_word((fg_critical_kind)k),
+                            count[k]);
+}
+
 static void add_scale(cJSON *scales, const run_facts *facts, int index)
 {
   const scale_result *result = drawing_result(facts->drawing, index);
@@ -125,6 +133,8 @@ static void add_scale(cJSON *scales, const run_facts *facts, int index)
   cJSON_AddNumberToObject(scale, "area_fraction", result->area_fraction);
   if (result->has_score)
     add_error(scale, &result->score);
+  if (result->has_features)
+    add_features(scale, result->features);
   add_files(scale, facts, index);
   cJSON_AddItemToArray(scales, scale);
 }

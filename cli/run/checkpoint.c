@@ -85,6 +85,9 @@ static void add_scale(cJSON *scales, const scale_result *result)
   add_exact(scale, "energy", result->energy);
   add_exact(scale, "area_fraction", result->area_fraction);
   add_score(scale, result);
+  if (result->has_features)
+    cJSON_AddItemToObject(scale, "features",
+                          cJSON_CreateIntArray(result->features, FG_CRITICAL_KINDS));
   cJSON_AddItemToArray(scales, scale);
 }
 
@@ -283,6 +286,8 @@ static int restore_scales(cli_run *run, const cJSON *note)
     result->energy = real_of(scale, "energy");
     result->area_fraction = real_of(scale, "area_fraction");
     restore_score(result, scale);
+    result->has_features = list_of(result->features, FG_CRITICAL_KINDS, scale,
+                                   "features") == FG_CRITICAL_KINDS;
   }
   if (!scales_are_there(run, count))
     return EXIT_FAILED;

@@ -6,6 +6,7 @@
 
 #include "build_features.h"
 #include "drawn/background.h"
+#include "drawn/features.h"
 #include "folder/scale_files.h"
 #include "progress.h"
 
@@ -168,6 +169,21 @@ static fg_status make_icons(scale_maker *maker, scale_snapshot *snapshot)
                          snapshot->density, &options);
 }
 
+static fg_status add_features(scale_maker *maker, fg_icons *icons)
+{
+  const run_settings *settings = maker->settings;
+  return features_add(maker->context, maker->field, icons, &settings->picture,
+                      settings->work.threads);
+}
+
+static void count_features(scale_result *result, const fg_icons *icons)
+{
+  const fg_critical_points *points = fg_icons_kept_critical(icons);
+  result->has_features = points != NULL;
+  for (int n = 0; n < fg_critical_points_count(points); ++n)
+    ++result->features[fg_critical_points_at(points, n)->kind];
+}
+
 /* The last scale's icons; after a resume read from the file. */
 static fg_status find_finer(scale_maker *maker, int index)
 {
@@ -178,7 +194,7 @@ static fg_status find_finer(scale_maker *maker, int index)
     return FG_STATUS_MEMORY;
   fg_status status = fg_icons_read(&maker->finer, maker->context, path);
   free(path);
-  return status;
+  return status ? status : add_features(maker, maker->finer);
 }
 
 /* Makes exactly `count` icons, and sets the parents of the finer scale's icons. */
@@ -234,6 +250,8 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
   if (!status && !settings_place(maker->settings) && fg_icons_count(snapshot->icons) > 0)
     status =
         placing_score(maker->context, maker->settings, maker->field, snapshot->icons);
+  if (!status)
+    status = add_features(maker, snapshot->icons);
   const fg_icons *icons = snapshot->icons;
   if (!status)
     status = write_icons(maker, index, icons);
@@ -254,6 +272,7 @@ static fg_status draw_icons(scale_maker *maker, int index, scale_result *result,
     if (score)
       result->score = *score;
     result->dropped = fg_icons_dropped(icons);
+    count_features(result, icons);
   }
   /* the parents of the finer scale's icons are known now */
   if (!status && settings_place(maker->settings) && maker->finer)

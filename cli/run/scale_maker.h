@@ -12,6 +12,8 @@ typedef struct scale_result {
   double time, energy, area_fraction;
   bool has_score;
   fg_score score; /* of its icons */
+  bool has_features;
+  int features[FG_CRITICAL_KINDS]; /* how many of each kind */
 } scale_result;
 
 /* What the pictures of all scales share, from the finest scale's icons: the ends of the

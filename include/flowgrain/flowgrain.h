@@ -34,6 +34,7 @@
  * The manual is the headers that this one includes: context.h (statuses, messages,
  * ranks), field.h, dataset.h, inventory.h, input.h, map.h and slabs.h (in), evolution.h,
  * energy.h and checkpoint.h (the work), density.h and icons.h (its results),
+ * critical.h (what a field turns round or parts at),
  * placement.h (exactly N arrows), run.h (scales), picture.h, view.h, solid.h, texture.h
  * and brush.h (out), rival.h (what to compare with), score.h (how good it is), words.h
  * (suggestions for misspelt words); and mpi.h (several processes), which it does not
@@ -64,6 +65,7 @@
 #include "flowgrain/brush.h"
 #include "flowgrain/checkpoint.h"
 #include "flowgrain/context.h"
+#include "flowgrain/critical.h"
 #include "flowgrain/dataset.h"
 #include "flowgrain/density.h"
 #include "flowgrain/energy.h"

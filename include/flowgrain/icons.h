@@ -2,6 +2,7 @@
 #ifndef FLOWGRAIN_ICONS_H
 #define FLOWGRAIN_ICONS_H
 
+#include "flowgrain/critical.h"
 #include "flowgrain/density.h"
 
 #ifdef __cplusplus
@@ -102,10 +103,18 @@ FG_API void fg_icons_speed_range(double range[2], const fg_icons *icons);
  * *vertices is allocated with malloc: free it. 2D. ARGUMENT, MEMORY. */
 FG_API fg_status fg_icon_outline(const fg_icon *icon, double (**vertices)[2], int *count);
 
+/* Stores critical points with icons, which own them from then on; their file and pictures
+ * then show them. NULL: none. */
+FG_API void fg_icons_keep_critical(fg_icons *icons, fg_critical_points *points);
+
+/* The critical points stored with icons, borrowed; NULL: none. */
+FG_API const fg_critical_points *fg_icons_kept_critical(const fg_icons *icons);
+
 /* Writes icons as GeoJSON (RFC 7946), or reads them back, bit for bit. Icons of a map or
  * of a longitude-latitude grid are lines in longitude and latitude within 180 degrees,
  * cut at the antimeridian, with the plane's coordinates as a property; their areas are
- * those on the globe. Others are LineStrings in the input's coordinates. FILE_ACCESS,
+ * those on the globe. Others are LineStrings in the input's coordinates. Critical points
+ * that are stored with them follow as Points, and are not read back. FILE_ACCESS,
  * FILE_FORMAT, MEMORY. */
 FG_API fg_status fg_icons_write(fg_context *context, const char *path,
                                 const fg_icons *icons);

@@ -20,6 +20,7 @@ struct fg_icons {
   char *projection; /* NULL: of no map */
   bool has_score;
   fg_score score;
+  fg_critical_points *critical; /* NULL: none */
 };
 
 fg_status fg__icons_create_empty(fg_icons **out, fg_context *context)
@@ -38,6 +39,7 @@ void fg_icons_destroy(fg_icons *icons)
     free(icons->entries[i]);
   free(icons->entries);
   free(icons->projection);
+  fg_critical_points_destroy(icons->critical);
   free(icons);
 }
 
@@ -134,6 +136,18 @@ void fg_icons_keep_score(fg_icons *icons, const fg_score *score)
 const fg_score *fg_icons_kept_score(const fg_icons *icons)
 {
   return icons && icons->has_score ? &icons->score : NULL;
+}
+
+void fg_icons_keep_critical(fg_icons *icons, fg_critical_points *points)
+{
+  if (points != icons->critical)
+    fg_critical_points_destroy(icons->critical);
+  icons->critical = points;
+}
+
+const fg_critical_points *fg_icons_kept_critical(const fg_icons *icons)
+{
+  return icons ? icons->critical : NULL;
 }
 
 fg_icon *fg__icons_change(fg_icons *icons, int index)

@@ -10,7 +10,7 @@ fg_status fg__icons_create_empty(fg_icons **out, fg_context *context);
 /* Adds a copy of an icon, its points included. MEMORY. */
 fg_status fg__icons_add(fg_icons *icons, fg_context *context, const fg_icon *icon);
 
-/* Copies a list, but for its score. MEMORY. */
+/* Copies a list, but for its score and critical points. MEMORY. */
 fg_status fg__icons_copy(fg_icons **out, fg_context *context, const fg_icons *icons);
 
 /* Of icons in degrees. */

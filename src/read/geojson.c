@@ -311,6 +311,15 @@ static fg_status read_projection(fg__icon_list *list, reading *at, const cJSON *
   return FG_STATUS_OK;
 }
 
+/* Those that our own files have behind the icons. */
+static bool is_critical_point(const cJSON *feature)
+{
+  const cJSON *properties = cJSON_GetObjectItemCaseSensitive(feature, "properties");
+  return has_type(cJSON_GetObjectItemCaseSensitive(feature, "geometry"), "Point") &&
+         cJSON_IsNumber(cJSON_GetObjectItemCaseSensitive(properties, "index")) &&
+         cJSON_IsString(cJSON_GetObjectItemCaseSensitive(properties, "kind"));
+}
+
 static fg_status read_collection(fg__icon_list *list, reading *at, const cJSON *root)
 {
   const cJSON *features = cJSON_GetObjectItemCaseSensitive(root, "features");
@@ -323,11 +332,12 @@ static fg_status read_collection(fg__icon_list *list, reading *at, const cJSON *
   cJSON_ArrayForEach(feature, features)
   {
     ++at->feature;
-    fg_status status = read_feature(list, at, feature);
+    fg_status status =
+        is_critical_point(feature) ? FG_STATUS_OK : read_feature(list, at, feature);
     if (status != FG_STATUS_OK)
       return status;
   }
-  list->clusters = at->feature + 1;
+  list->clusters = (int)list->count;
   fg_status status = read_whole_number(&list->clusters, at, root, "clusters", 0);
   if (status == FG_STATUS_OK)
     status = read_whole_number(&list->dropped, at, root, "dropped", 0);

@@ -11,7 +11,7 @@ enum { PARTICLES = 500, MOST_TRIALS = 1 << 18, STEPS_A_SIDE = 512 };
 static const double RADIUS = 0.15, LONGEST = 4.0;
 
 typedef struct work {
-  const fg__score_raster *raster;
+  const fg__domain_raster *raster;
   const fg__harmonic *harmonic; /* NULL: the field itself */
   const double (*start)[3];
   double (*end)[3];
@@ -27,7 +27,7 @@ static double radical_inverse(int n, int b)
   return sum;
 }
 
-static int place_particles(double (*out)[3], const fg__score_raster *raster)
+static int place_particles(double (*out)[3], const fg__domain_raster *raster)
 {
   static const int base[3] = {2, 3, 5};
   int count = 0;
@@ -46,7 +46,7 @@ static int place_particles(double (*out)[3], const fg__score_raster *raster)
 /* Between the nearest centres of cells that are known. */
 static bool interpolate(double out[3], const work *w, const double position[3])
 {
-  const fg__score_raster *raster = w->raster;
+  const fg__domain_raster *raster = w->raster;
   const int dimension = raster->dimension == 3 ? 3 : 2;
   int low[3] = {0};
   double inside[3] = {0.0}, weights = 0.0;
@@ -143,7 +143,7 @@ static void follow_all(void *argument, const fg__thread *thread)
     follow(w->end[n], w, w->start[n]);
 }
 
-double fg__score_advection(const fg__score_raster *raster, const fg__harmonic *harmonic,
+double fg__score_advection(const fg__domain_raster *raster, const fg__harmonic *harmonic,
                            fg__threads *threads)
 {
   double start[PARTICLES][3], end[2][PARTICLES][3], sum = 0.0;

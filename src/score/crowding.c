@@ -33,7 +33,7 @@ static size_t bucket_of(const buckets *b, const double position[3], int at[3])
 }
 
 static fg_status buckets_create(buckets *out, fg_context *context,
-                                const fg__score_raster *raster,
+                                const fg__domain_raster *raster,
                                 const fg__samples *samples, double reach)
 {
   *out = (buckets){.samples = samples,
@@ -113,7 +113,7 @@ static bool is_crowded(const buckets *b, size_t sample)
 }
 
 fg_status fg__score_clutter(double *share, fg_context *context,
-                            const fg__score_raster *raster, const fg__samples *samples,
+                            const fg__domain_raster *raster, const fg__samples *samples,
                             double lambda)
 {
   buckets b;
@@ -126,7 +126,7 @@ fg_status fg__score_clutter(double *share, fg_context *context,
   return status;
 }
 
-double fg__score_tangency(const fg__score_raster *raster, const fg__samples *samples)
+double fg__score_tangency(const fg__domain_raster *raster, const fg__samples *samples)
 {
   double sum = 0.0;
   size_t count = 0;
@@ -141,7 +141,7 @@ double fg__score_tangency(const fg__score_raster *raster, const fg__samples *sam
   return sum / (double)count;
 }
 
-void fg__score_voids(double *mean, double *most, const fg__score_raster *raster,
+void fg__score_voids(double *mean, double *most, const fg__domain_raster *raster,
                      const float *distance, double lambda)
 {
   double sum = 0.0, largest = 0.0;

@@ -27,12 +27,12 @@ typedef struct levels {
   int count;
 } levels;
 
-static void add_tangents(fg__score_level *level, const fg__score_raster *raster,
+static void add_tangents(fg__score_level *level, const fg__domain_raster *raster,
                          const fg__samples *samples)
 {
   for (size_t n = 0; n < samples->count; ++n) {
     size_t found;
-    if (!fg__score_raster_find(raster, samples->position[n], &found) ||
+    if (!fg__domain_raster_find(raster, samples->position[n], &found) ||
         !raster->inside[found])
       continue;
     const size_t columns = (size_t)level->size[0], rows = (size_t)level->size[1];
@@ -75,7 +75,7 @@ static void leave_out_unreached(fg__score_level *level, size_t *queue,
 }
 
 static fg_status fill_finest(fg__score_level *level, fg_context *context,
-                             const fg__score_raster *raster, const fg__samples *samples)
+                             const fg__domain_raster *raster, const fg__samples *samples)
 {
   const unsigned char *inside = raster->inside;
   size_t *queue = fg__allocate(level->cells, sizeof *queue);
@@ -98,7 +98,7 @@ static fg_status fill_finest(fg__score_level *level, fg_context *context,
 }
 
 static fg_status make_levels(levels *out, fg_context *context,
-                             const fg__score_raster *raster, const fg__samples *samples)
+                             const fg__domain_raster *raster, const fg__samples *samples)
 {
   out->count = 1;
   fg_status status =
@@ -319,7 +319,7 @@ static fg_status copy_out(fg__harmonic *out, fg_context *context,
 }
 
 fg_status fg__harmonic_create(fg__harmonic *out, fg_context *context,
-                              const fg__score_raster *raster, const fg__samples *samples,
+                              const fg__domain_raster *raster, const fg__samples *samples,
                               double tolerance)
 {
   *out = (fg__harmonic){0};
@@ -345,7 +345,7 @@ void fg__harmonic_clear(fg__harmonic *harmonic)
   *harmonic = (fg__harmonic){0};
 }
 
-void fg__harmonic_angles(float *angle, const fg__score_raster *raster,
+void fg__harmonic_angles(float *angle, const fg__domain_raster *raster,
                          const fg__harmonic *harmonic)
 {
   for (size_t n = 0; n < raster->cells; ++n) {

@@ -5,7 +5,7 @@
 typedef struct bench {
   fg_field *field;
   fg_icons *icons;
-  fg__score_raster raster;
+  fg__domain_raster raster;
   fg__samples samples;
 } bench;
 
@@ -13,7 +13,7 @@ static void set_up(bench *b, fg_context *context, const sampling *box,
                    velocity_of velocity, int count)
 {
   *b = (bench){.field = field_of(context, box, velocity), .icons = no_icons(context)};
-  assert_int_equal(fg__score_raster_create(&b->raster, context, b->field, NULL),
+  assert_int_equal(fg__domain_raster_create(&b->raster, context, b->field, NULL),
                    FG_STATUS_OK);
   if (count > 0)
     add_scribbles(b->icons, context, box, count,
@@ -30,7 +30,7 @@ static void take_samples(bench *b, fg_context *context)
 static void tear_down(bench *b)
 {
   fg__samples_clear(&b->samples);
-  fg__score_raster_clear(&b->raster);
+  fg__domain_raster_clear(&b->raster);
   fg_icons_destroy(b->icons);
   fg_field_destroy(b->field);
 }
@@ -59,14 +59,14 @@ static const sampling SOLID = {
 /* Cells without samples are the mean of those beside them in the domain. */
 static void check_means(const bench *b, const fg__harmonic *harmonic)
 {
-  const fg__score_raster *raster = &b->raster;
+  const fg__domain_raster *raster = &b->raster;
   const size_t step[3] = {1, (size_t)raster->size[0],
                           (size_t)raster->size[0] * (size_t)raster->size[1]};
   unsigned char *sampled = calloc(raster->cells, 1);
   size_t free_cells = 0;
   for (size_t n = 0; n < b->samples.count; ++n) {
     size_t place;
-    assert_true(fg__score_raster_find(raster, b->samples.position[n], &place));
+    assert_true(fg__domain_raster_find(raster, b->samples.position[n], &place));
     sampled[place] = 1;
   }
   for (size_t n = 0; n < raster->cells; ++n) {

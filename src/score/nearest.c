@@ -28,7 +28,7 @@ typedef struct row_work {
 } row_work;
 
 typedef struct work {
-  const fg__score_raster *raster;
+  const fg__domain_raster *raster;
   const fg__samples *samples;
   site *sites;    /* each icon's by x */
   double scale;   /* units of the field in one of ours */
@@ -204,7 +204,7 @@ FG__CLONES static void add_3d(const row_work *row, int columns, float epsilon)
 
 static void write_row(const work *w, const row_work *row, size_t first)
 {
-  const fg__score_raster *raster = w->raster;
+  const fg__domain_raster *raster = w->raster;
   for (int i = 0; i < raster->size[0]; ++i) {
     const size_t place = first + (size_t)i;
     double field[3] = {0}, near[3] = {0}, weighted[3] = {0};
@@ -223,7 +223,7 @@ static void write_row(const work *w, const row_work *row, size_t first)
   }
 }
 
-static bool is_empty(const fg__score_raster *raster, size_t first)
+static bool is_empty(const fg__domain_raster *raster, size_t first)
 {
   for (int i = 0; i < raster->size[0]; ++i)
     if (raster->inside[first + (size_t)i])
@@ -233,7 +233,7 @@ static bool is_empty(const fg__score_raster *raster, size_t first)
 
 static void read_row(const work *w, row_work *row, int number)
 {
-  const fg__score_raster *raster = w->raster;
+  const fg__domain_raster *raster = w->raster;
   const fg__samples *samples = w->samples;
   const int columns = raster->size[0], dimension = raster->dimension == 3 ? 3 : 2;
   const size_t first = (size_t)number * (size_t)columns;
@@ -263,7 +263,7 @@ static void read_rows(void *argument, const fg__thread *thread)
 {
   const work *w = argument;
   int row, end;
-  fg__threads_range(thread, (int)fg__score_raster_rows(w->raster), 1, &row, &end);
+  fg__threads_range(thread, (int)fg__domain_raster_rows(w->raster), 1, &row, &end);
   for (; row < end; ++row)
     read_row(w, &w->rows[thread->index], row);
 }
@@ -279,7 +279,7 @@ static fg_status allocate(fg__nearest *out, fg_context *context, size_t cells)
 }
 
 fg_status fg__nearest_create(fg__nearest *out, fg_context *context,
-                             const fg__score_raster *raster, const fg__samples *samples,
+                             const fg__domain_raster *raster, const fg__samples *samples,
                              double lambda, fg__threads *threads)
 {
   const double rounding = 0.05 * lambda / raster->spacing;

@@ -5,7 +5,7 @@
 typedef struct bench {
   fg_field *field;
   fg_icons *icons;
-  fg__score_raster raster;
+  fg__domain_raster raster;
   fg__samples samples;
   fg__nearest nearest;
   double lambda;
@@ -17,7 +17,7 @@ static void set_up(bench *b, fg_context *context, const sampling *box,
   fg__threads *threads = NULL;
   *b = (bench){.field = field_of(context, box, velocity), .icons = no_icons(context)};
   assert_int_equal(fg__threads_create(&threads, context, thread_count), FG_STATUS_OK);
-  assert_int_equal(fg__score_raster_create(&b->raster, context, b->field, threads),
+  assert_int_equal(fg__domain_raster_create(&b->raster, context, b->field, threads),
                    FG_STATUS_OK);
   b->lambda = b->raster.side / (box->dimension == 3 ? cbrt(count) : sqrt(count));
   add_scribbles(b->icons, context, box, count, 0.4 * b->lambda);
@@ -34,7 +34,7 @@ static void tear_down(bench *b)
 {
   fg__nearest_clear(&b->nearest);
   fg__samples_clear(&b->samples);
-  fg__score_raster_clear(&b->raster);
+  fg__domain_raster_clear(&b->raster);
   fg_icons_destroy(b->icons);
   fg_field_destroy(b->field);
 }
@@ -47,7 +47,7 @@ static double squared_distance(const double a[3], const double b[3])
   return sum;
 }
 
-static double angle_to(const double a[3], const fg__score_raster *raster, size_t place)
+static double angle_to(const double a[3], const fg__domain_raster *raster, size_t place)
 {
   double inner = 0, length = 0;
   for (int k = 0; k < raster->dimension; ++k) {
@@ -94,14 +94,14 @@ static void check_cell(const bench *b, size_t place, const double position[3])
 /* Every `stride`th cell. */
 static void check_cells(const bench *b, size_t stride)
 {
-  const fg__score_raster *raster = &b->raster;
+  const fg__domain_raster *raster = &b->raster;
   const size_t columns = (size_t)raster->size[0], rows = (size_t)raster->size[1];
   size_t checked = 0;
   for (size_t place = 0; place < raster->cells; place += stride) {
     const int at[3] = {(int)(place % columns), (int)(place / columns % rows),
                        (int)(place / columns / rows)};
     double position[3];
-    fg__score_raster_centre(raster, at, position);
+    fg__domain_raster_centre(raster, at, position);
     if (raster->dimension == 2)
       position[2] = 0;
     if (!raster->inside[place])

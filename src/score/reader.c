@@ -50,7 +50,7 @@ static float select_value(float *value, size_t count, size_t place)
 }
 
 fg_status fg__reader_error(fg_reader_error *out, fg_context *context,
-                           const fg__score_raster *raster, const float *angle)
+                           const fg__domain_raster *raster, const float *angle)
 {
   double sum = 0.0, weighted = 0.0, speeds = 0.0;
   size_t count = 0;

@@ -10,7 +10,7 @@ double fg__angle(const double a[3], const double b[3]);
 /* The angles of a reader to the field, a number a cell (those of cells that do not count
  * do not matter), as the error. */
 fg_status fg__reader_error(fg_reader_error *out, fg_context *context,
-                           const fg__score_raster *raster, const float *angle);
+                           const fg__domain_raster *raster, const float *angle);
 
 /* The readers that look at nearest tangents: at that of all, and at each icon's by
  * (d^2 + (lambda / 20)^2)^-1.5, in 3D ^-2. All arrays have a number a cell; distance: to
@@ -22,7 +22,7 @@ typedef struct fg__nearest {
 } fg__nearest;
 
 fg_status fg__nearest_create(fg__nearest *out, fg_context *context,
-                             const fg__score_raster *raster, const fg__samples *samples,
+                             const fg__domain_raster *raster, const fg__samples *samples,
                              double lambda, fg__threads *threads);
 void fg__nearest_clear(fg__nearest *nearest);
 
@@ -37,12 +37,12 @@ typedef struct fg__harmonic {
  * `tolerance` is that of the residual, relative to that of zero [0: 0.01 degrees of the
  * mean angle]. MEMORY, STOPPED, NO_CONVERGENCE. */
 fg_status fg__harmonic_create(fg__harmonic *out, fg_context *context,
-                              const fg__score_raster *raster, const fg__samples *samples,
+                              const fg__domain_raster *raster, const fg__samples *samples,
                               double tolerance);
 void fg__harmonic_clear(fg__harmonic *diffusion);
 
 /* A number a cell. */
-void fg__harmonic_angles(float *angle, const fg__score_raster *raster,
+void fg__harmonic_angles(float *angle, const fg__domain_raster *raster,
                          const fg__harmonic *diffusion);
 
 #endif

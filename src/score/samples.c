@@ -68,7 +68,7 @@ static void wrap(const fg_field *field, double position[3])
   }
 }
 
-static void add_sample(fg__samples *samples, const fg__score_raster *raster,
+static void add_sample(fg__samples *samples, const fg__domain_raster *raster,
                        const double position[3], const double tangent[3])
 {
   double ignored[3];
@@ -82,13 +82,13 @@ static void add_sample(fg__samples *samples, const fg__score_raster *raster,
   memcpy(samples->tangent[samples->count++], tangent, 3 * sizeof *tangent);
 }
 
-static size_t pieces_of(double length, const fg__score_raster *raster)
+static size_t pieces_of(double length, const fg__domain_raster *raster)
 {
   return (size_t)ceil(length / (0.5 * raster->spacing));
 }
 
 /* The middle `kept` of an icon's `length`. */
-static void add_icon(fg__samples *samples, const fg__score_raster *raster,
+static void add_icon(fg__samples *samples, const fg__domain_raster *raster,
                      const fg_icon *icon, double length, double kept)
 {
   walk ends = {
@@ -137,7 +137,7 @@ typedef struct lengths {
 } lengths;
 
 static fg_status cut_lines(lengths *out, fg_context *context, const fg_icons *icons,
-                           const fg__score_raster *raster, double longest, double all)
+                           const fg__domain_raster *raster, double longest, double all)
 {
   const int count = fg_icons_count(icons);
   const size_t bytes = (size_t)count * sizeof(double);
@@ -164,7 +164,7 @@ static fg_status cut_lines(lengths *out, fg_context *context, const fg_icons *ic
 }
 
 static fg_status allocate(fg__samples *samples, fg_context *context,
-                          const fg__score_raster *raster, const double *kept)
+                          const fg__domain_raster *raster, const double *kept)
 {
   double pieces = 0.0;
   samples->shortest = samples->icons ? HUGE_VAL : 0.0;
@@ -189,7 +189,7 @@ static fg_status allocate(fg__samples *samples, fg_context *context,
 }
 
 fg_status fg__samples_create(fg__samples *out, fg_context *context,
-                             const fg__score_raster *raster, const fg_icons *icons,
+                             const fg__domain_raster *raster, const fg_icons *icons,
                              double longest, double all)
 {
   *out = (fg__samples){.icons = fg_icons_count(icons)};

@@ -2,7 +2,7 @@
 #ifndef FG__SAMPLES_H
 #define FG__SAMPLES_H
 
-#include "score/raster.h"
+#include "critical/raster.h"
 
 typedef struct fg__samples {
   int icons;
@@ -21,7 +21,7 @@ typedef struct fg__samples {
  * fg__samples_clear, also after a failure. ARGUMENT (lines far longer than the domain),
  * MEMORY. */
 fg_status fg__samples_create(fg__samples *out, fg_context *context,
-                             const fg__score_raster *raster, const fg_icons *icons,
+                             const fg__domain_raster *raster, const fg_icons *icons,
                              double longest, double all);
 void fg__samples_clear(fg__samples *samples);
 

@@ -3,7 +3,7 @@
 
 typedef struct bench {
   fg_field *field;
-  fg__score_raster raster;
+  fg__domain_raster raster;
   fg_icons *icons;
   fg__samples samples;
 } bench;
@@ -11,7 +11,7 @@ typedef struct bench {
 static void set_up(bench *b, fg_context *context, const sampling *box)
 {
   *b = (bench){.field = field_of(context, box, swirl), .icons = no_icons(context)};
-  assert_int_equal(fg__score_raster_create(&b->raster, context, b->field, NULL),
+  assert_int_equal(fg__domain_raster_create(&b->raster, context, b->field, NULL),
                    FG_STATUS_OK);
 }
 
@@ -26,7 +26,7 @@ static void take(bench *b, fg_context *context, double longest, double all)
 static void tear_down(bench *b)
 {
   fg__samples_clear(&b->samples);
-  fg__score_raster_clear(&b->raster);
+  fg__domain_raster_clear(&b->raster);
   fg_icons_destroy(b->icons);
   fg_field_destroy(b->field);
 }

@@ -8,7 +8,7 @@
 typedef struct scoring {
   const fg_score_options *options;
   fg__threads *threads;
-  fg__score_raster raster;
+  fg__domain_raster raster;
   fg__samples samples;
   fg__nearest nearest;
   fg__harmonic harmonic;
@@ -90,7 +90,7 @@ static fg_status read_diffusion(scoring *s, fg_score *out, fg_context *context)
 
 static fg_status measure_rest(scoring *s, fg_score *out, fg_context *context)
 {
-  const fg__score_raster *raster = &s->raster;
+  const fg__domain_raster *raster = &s->raster;
   const fg__samples *samples = &s->samples;
   const double lambda = out->count_length;
   const size_t all = samples->count + samples->outside;
@@ -112,7 +112,7 @@ static fg_status measure_rest(scoring *s, fg_score *out, fg_context *context)
 static fg_status score(scoring *s, fg_score *out, fg_context *context,
                        const fg_field *field, const fg_icons *icons)
 {
-  fg_status status = fg__score_raster_create(&s->raster, context, field, s->threads);
+  fg_status status = fg__domain_raster_create(&s->raster, context, field, s->threads);
   if (status == FG_STATUS_OK)
     status = take_samples(s, out, context, icons);
   if (status == FG_STATUS_OK)
@@ -153,7 +153,7 @@ fg_status fg_icons_score(fg_score *out, fg_context *context, const fg_field *fie
   fg__harmonic_clear(&s.harmonic);
   fg__nearest_clear(&s.nearest);
   fg__samples_clear(&s.samples);
-  fg__score_raster_clear(&s.raster);
+  fg__domain_raster_clear(&s.raster);
   fg__threads_destroy(s.threads);
   if (status != FG_STATUS_OK)
     *out = (fg_score){0};

@@ -208,6 +208,35 @@ static fg_status write_icon(common *all, const fg_icon *icon)
   return FG_STATUS_OK;
 }
 
+static void write_critical(common *all, const fg_critical_point *point)
+{
+  static const char *const axis[] = {",\"outflow\":", ",\"inflow\":"};
+  FILE *stream = all->stream;
+  const double plane[3] = {point->at[0], point->at[1], 0.0};
+  double at[3] = {plane[0], plane[1], 0.0};
+  if (all->on_globe)
+    fg__parts_position(at, all->map, plane);
+  const bool seen = isfinite(at[0]) && isfinite(at[1]);
+  fputs("{\"type\":\"Feature\",\"geometry\":{\"type\":\"Point\",\"coordinates\":",
+        stream);
+  write_position(stream, seen ? at : plane, 2);
+  fprintf(stream, "},\"properties\":{\"kind\":\"%s\",\"index\":%d",
+          fg_critical_kind_word(point->kind), point->index);
+  if (point->sense)
+    fprintf(stream, ",\"sense\":\"%sclockwise\"", point->sense > 0 ? "anti" : "");
+  if (point->outward)
+    fprintf(stream, ",\"flow\":\"%sward\"", point->outward > 0 ? "out" : "in");
+  for (int k = 0; k < 2 && point->kind == FG_CRITICAL_SADDLE; ++k) {
+    fputs(axis[k], stream);
+    write_position(stream, point->axis[k], 2);
+  }
+  if (all->map) {
+    fputs(",\"plane\":", stream);
+    write_position(stream, plane, 2);
+  }
+  fputs("}}", stream);
+}
+
 /* A text of PROJ has no quotes, backslashes or control characters; others would not have
  * made a map. */
 static void write_projection(FILE *stream, const char *projection)
@@ -235,6 +264,11 @@ static fg_status write_collection(common *all, const fg_icons *icons)
   for (int n = 0; n < fg_icons_count(icons) && status == FG_STATUS_OK; ++n) {
     fputs(n > 0 ? ",\n" : "\n", stream);
     status = write_icon(all, fg_icons_at(icons, n));
+  }
+  const fg_critical_points *points = fg_icons_kept_critical(icons);
+  for (int n = 0; n < fg_critical_points_count(points); ++n) {
+    fputs(n > 0 || fg_icons_count(icons) > 0 ? ",\n" : "\n", stream);
+    write_critical(all, fg_critical_points_at(points, n));
   }
   fputs("\n]}\n", stream);
   return status;

@@ -92,6 +92,43 @@ static void icons_come_back_bit_for_bit(void **state)
   fg_icons_destroy(icons);
 }
 
+/* A vortex that turns clockwise and a saddle, as Points behind the icons. */
+static void critical_points_are_written_and_passed_over(void **state)
+{
+  folder *f = *state;
+  enum { SIDE = 41 };
+  double axis[SIDE];
+  float u[SIDE * SIDE], v[SIDE * SIDE];
+  for (int n = 0; n < SIDE; ++n)
+    axis[n] = n - 20;
+  for (int n = 0; n < SIDE * SIDE; ++n) {
+    u[n] = (float)axis[n / SIDE];
+    v[n] = (float)(81.0 - axis[n % SIDE] * axis[n % SIDE]);
+  }
+  const fg_field_arrays arrays = {
+      .dimension = 2, .size = {SIDE, SIDE}, .axis = {axis, axis}, .velocity = {u, v}};
+  fg_field *field = NULL;
+  fg_critical_points *points = NULL;
+  fg_icons *icons = make_icons(f->context), *read = NULL;
+  assert_int_equal(fg_field_create(&field, f->context, &arrays), FG_STATUS_OK);
+  assert_int_equal(fg_critical_points_find(&points, f->context, field, NULL),
+                   FG_STATUS_OK);
+  fg_icons_keep_critical(icons, points);
+  assert_int_equal(fg_icons_write(f->context, f->path, icons), FG_STATUS_OK);
+  char *text = read_text(f->path);
+  assert_non_null(strstr(text, "\"type\":\"Point\""));
+  assert_non_null(
+      strstr(text, "\"kind\":\"centre\",\"index\":1,\"sense\":\"clockwise\"}}"));
+  assert_non_null(strstr(text, "\"kind\":\"saddle\",\"index\":-1,\"outflow\":["));
+  free(text);
+  assert_int_equal(fg_icons_read(&read, f->context, f->path), FG_STATUS_OK);
+  assert_equal_icons(icons, read);
+  assert_null(fg_icons_kept_critical(read));
+  fg_icons_destroy(icons);
+  fg_icons_destroy(read);
+  fg_field_destroy(field);
+}
+
 static void numbers_are_short_and_icons_have_lines_of_their_own(void **state)
 {
   folder *f = *state;
@@ -159,6 +196,7 @@ static void every_wrong_value_is_refused(void **state)
       {"\"FeatureCollection\"", "7"},
       {"\"features\":[", "\"features\":[1,"},
       {"\"LineString\"", "\"Polygon\""},
+      {"\"LineString\"", "\"Point\""},
       {"[-179.25,0.1]", "[-179.25]"},
       {"[-179.25,0.1]", "[-179.25,0.1,0,0]"},
       {"[-179.25,0.1]", "[-179.25,\"0.1\"]"},
@@ -250,6 +288,7 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, folder_tear_down)
   const struct CMUnitTest tests[] = {
       TEST(icons_come_back_bit_for_bit),
+      TEST(critical_points_are_written_and_passed_over),
       TEST(numbers_are_short_and_icons_have_lines_of_their_own),
       TEST(no_icons_are_a_collection_too),
       TEST(lines_of_other_programs_are_read),

@@ -268,6 +268,10 @@ void fg__draw_inside(cairo_t *cairo, const fg__page *page, const fg__scene *scen
   if (style->background)
     draw_background(cairo, &style->background_box, style->background);
   draw_areas(cairo, scene, style);
+  cairo_save(cairo);
+  cairo_reset_clip(cairo); /* a map's is written for every path, and none is cut */
+  fg__symbols_draw(cairo, page, style->low, style->critical);
+  cairo_restore(cairo);
   draw_arrows(cairo, page, scene, style);
   draw_skeletons(cairo, scene);
   cairo_restore(cairo);
@@ -297,6 +301,8 @@ void fg__draw_round(cairo_t *cairo, const fg__page *page, const fg__palette *pal
   if (style->map && !style->map_style.transparent)
     draw_halos(cairo, page);
   draw_lines(cairo, page);
+  for (int k = 0; k < page->symbol_count; ++k)
+    fg__symbol_draw(cairo, &page->symbol[k], 0.0);
   if (page->has_size_key && reference->count) {
     fg__draw_path(cairo, reference);
     set_color(cairo, quiet_ink);

@@ -4,6 +4,7 @@
 
 #include "picture/map/page_map.h"
 #include "picture/page/scene.h"
+#include "picture/page/symbols.h"
 #include "picture/surface/surface.h"
 
 typedef struct fg__style {
@@ -11,8 +12,10 @@ typedef struct fg__style {
   cairo_surface_t *background; /* NULL: none */
   fg__page_box background_box; /* of the domain, which may be wider than the frame */
   fg__map_style map_style;
-  const fg__map_scene *map;   /* NULL: what is drawn lies on no map */
-  const fg__map_cover *cover; /* of a background on a map; NULL: none */
+  const fg__map_scene *map;           /* NULL: what is drawn lies on no map */
+  const fg__map_cover *cover;         /* of a background on a map; NULL: none */
+  const fg_critical_points *critical; /* NULL: none */
+  double low[2];                      /* of the frame, in the field's coordinates */
 } fg__style;
 
 /* A light grey. */

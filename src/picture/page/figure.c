@@ -132,6 +132,16 @@ static fg_status plan_map(fg__figure *out, fg_context *context)
   return FG_STATUS_OK;
 }
 
+/* Signs, and the key of those that are used. */
+static void find_symbols(fg__figure *out, const fg_picture_options *options)
+{
+  for (int k = 0; k < out->count; ++k) {
+    out->panel[k].critical = fg_icons_kept_critical(out->given[k].icons);
+    if (!options->no_keys)
+      fg__symbols_plan(&out->plan, out->panel[k].critical);
+  }
+}
+
 /* Captions and keys are of the icons that are seen. */
 static fg_status find_icons(fg__figure *out, fg_context *context)
 {
@@ -189,6 +199,7 @@ static fg_status plan_figure(fg__figure *out, fg_context *context, bool several,
   plan->no_frame = options->no_frame;
   find_shown(out, options->no_frame || options->whole);
   fg_status status = plan_map(out, context);
+  find_symbols(out, options);
   if (!status)
     status = find_icons(out, context);
   if (!status)
@@ -316,6 +327,8 @@ static fg_status prepare(fg__figure *out, fg_context *context, bool several,
   for (int k = 0; k < out->count && !status; ++k) {
     style.background_box =
         domain_box(out, fg__figure_page(out, k), fg_field_contents(out->given[k].field));
+    style.critical = out->panel[k].critical;
+    memcpy(style.low, out->low, sizeof style.low);
     out->panel[k].style = style;
   }
   return status;

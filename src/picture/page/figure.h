@@ -13,6 +13,7 @@ typedef struct fg__figure_panel {
   fg__map_scene map;
   fg__map_cover cover; /* of a background on a map: what the scene's mask covers */
   fg_icons *shown;     /* NULL: all that were given */
+  const fg_critical_points *critical; /* of the icons that were given; NULL: none */
 } fg__figure_panel;
 
 typedef struct fg__figure {

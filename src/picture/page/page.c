@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "picture/page/symbols.h"
+
 /* The default width: a figure in a journal, between one and two columns. */
 static const double default_width = 480.0;
 
@@ -146,6 +148,7 @@ static void clear(fg__page *page, const fg__page_parts *parts)
   page->line_count = 0;
   page->has_color_key = false;
   page->has_size_key = false;
+  page->symbol_count = 0;
 }
 
 /* Between bare panels: a share of theirs, so that something is left of each. */
@@ -190,6 +193,8 @@ static bool lay_out(fg__page *page, fg__page *panel, const fg__page_plan *plan,
     place_round(page, panel, &room, between, plan, parts, ruler);
     if (parts->color_key || parts->size_key)
       fg__page_place_keys(page, &room, plan, parts, ruler);
+    if (parts->symbols)
+      fg__page_place_symbols(page, &room, plan, ruler);
     if (parts->caption)
       fg__page_place_caption(page, &room, plan, ruler);
     const double spare = rounding - edge;
@@ -243,15 +248,24 @@ static bool lay_out_well(fg__page *out, fg__page *panel, const fg__page_plan *pl
   return lay_out(out, panel, plan, parts, ruler) && out->scale >= least;
 }
 
+static bool has_symbols(const fg__page_plan *plan)
+{
+  bool any = false;
+  for (int k = 0; k < FG__SYMBOL_KINDS; ++k)
+    any = any || plan->has_symbol[k];
+  return any;
+}
+
 /* Brings back what was left out in vain, before what did not fit was: the caption, say,
  * of a page that is too narrow. */
 static void bring_back(fg__page *out, fg__page *panel, const fg__page_plan *plan,
                        fg__page_parts *parts, double least, cairo_t *ruler)
 {
   const bool wanted[] = {plan->title[0] || plan->subtitle[0], parts->axes,
-                         plan->size_key};
-  bool *const part[] = {&parts->caption, &parts->axis_labels, &parts->size_key};
-  for (int k = 0; k < 3; ++k) {
+                         has_symbols(plan), plan->size_key};
+  bool *const part[] = {&parts->caption, &parts->axis_labels, &parts->symbols,
+                        &parts->size_key};
+  for (int k = 0; k < 4; ++k) {
     const fg__page_parts before = *parts;
     if (*part[k] || !wanted[k] || plan->no_frame)
       continue;
@@ -301,11 +315,13 @@ void fg__page_layout_panels(fg__page *out, fg__page *panel, const fg__page_plan 
                           .axis_labels = !plan->no_frame,
                           .color_key = plan->color_key && !plan->no_frame,
                           .size_key = plan->size_key && !plan->no_frame,
+                          .symbols = has_symbols(plan) && !plan->no_frame,
                           .caption =
                               (plan->title[0] || plan->subtitle[0]) && !plan->no_frame,
                           .sides = {true, true, true, true}};
-  bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.caption,
-                               &parts.axes,     &parts.color_key,   &parts.axes};
+  bool *const dispensable[] = {&parts.size_key, &parts.axis_labels, &parts.symbols,
+                               &parts.caption,  &parts.axes,        &parts.color_key,
+                               &parts.axes};
   size_t count = sizeof dispensable / sizeof *dispensable, k = 0;
   double least = least_share * bare_scale(plan);
   while (k < count && !lay_out_well(out, panel, plan, &parts, least, ruler)) {

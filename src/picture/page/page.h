@@ -3,6 +3,7 @@
 #ifndef FG__PAGE_H
 #define FG__PAGE_H
 
+#include "flowgrain/critical.h"
 #include "picture/caption.h"
 #include "picture/page/text.h"
 #include "picture/ticks.h"
@@ -18,7 +19,9 @@ enum {
   FG__LABEL_LINES = 3, /* of the colour key */
   FG__PAGE_TEXT_BYTES = FG__CAPTION_BYTES,
   /* ticks of two axes and of the colour key, their labels, the caption, the size key */
-  FG__PAGE_TEXTS = 3 * FG__TICK_LIMIT + FG__CAPTION_LINES + FG__LABEL_LINES + 8,
+  FG__SYMBOL_KINDS = 6, /* of critical points */
+  FG__PAGE_TEXTS =
+      3 * FG__TICK_LIMIT + FG__CAPTION_LINES + FG__LABEL_LINES + 8 + FG__SYMBOL_KINDS,
   FG__PAGE_LINES = 3 * FG__TICK_LIMIT
 };
 
@@ -39,6 +42,14 @@ typedef struct fg__page_line {
   double x0, y0, x1, y1;
 } fg__page_line;
 
+/* The sign of a critical point; y downwards, but the sense is as it is seen. */
+typedef struct fg__symbol {
+  fg_critical_kind kind;
+  int sense, outward;
+  double axis[2][2];
+  double x, y, radius; /* points */
+} fg__symbol;
+
 typedef struct fg__page {
   double width, height;
   double font_size;
@@ -54,8 +65,10 @@ typedef struct fg__page {
   fg__page_box color_key;
   double color_key_point[2]; /* length of the points at its ends, for speeds beyond */
   bool has_size_key;
-  double size_key[2];     /* where its arrow's tail is */
-  double size_key_length; /* points */
+  double size_key[2];                  /* where its arrow's tail is */
+  double size_key_length;              /* points */
+  fg__symbol symbol[FG__SYMBOL_KINDS]; /* of the key */
+  int symbol_count;
 } fg__page;
 
 /* What is laid out on a page. */
@@ -73,6 +86,8 @@ typedef struct fg__page_plan {
   bool size_key;
   fg__tick_axis length; /* how the size key's length is written; factor 0: as along x */
   double arrow_length;  /* of a typical arrow, coordinates */
+  bool has_symbol[FG__SYMBOL_KINDS]; /* the key has it, as */
+  fg__symbol symbol[FG__SYMBOL_KINDS];
   const struct fg__graticule *graticule; /* of a map: degrees where lines end, instead of
                                             axes; NULL: axes */
   bool short_key; /* of colours, as on maps: about half as long as the frame's side, and
@@ -144,7 +159,7 @@ typedef struct fg__page_sides {
 
 /* Which parts a page has. */
 typedef struct fg__page_parts {
-  bool axes, axis_labels, color_key, size_key, caption;
+  bool axes, axis_labels, color_key, size_key, symbols, caption;
   bool keys_below;
   fg__page_sides sides; /* where numbers and degrees are written; ticks are at all */
 } fg__page_parts;

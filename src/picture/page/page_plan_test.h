@@ -66,6 +66,8 @@ static inline fg__page_plan plan_of(double width, double height, double x, doubl
     plan.speed.units[0] = '\0';
   }
   plan.color_key = plan.size_key = true;
+  for (int k = 0; k < FG__SYMBOL_KINDS; ++k)
+    plan.has_symbol[k] = style == 1 || (style == 3 && k % 2);
   plan.short_key = style == 3;
   plan.speeds_beyond[0] = style == 1;
   plan.speeds_beyond[1] = style > 0;

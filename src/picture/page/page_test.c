@@ -9,7 +9,7 @@
 /* No two things on the page touch; all lie on it; one unit is as long along x and y. */
 static void check_page(const fg__page *page, const fg__page_plan *plan)
 {
-  fg__page_box things[FG__PAGE_TEXTS + 3];
+  fg__page_box things[FG__PAGE_TEXTS + 3 + FG__SYMBOL_KINDS];
   int count = 0;
   for (int k = 0; k < page->text_count; ++k)
     things[count++] = page->text[k].box;
@@ -18,6 +18,11 @@ static void check_page(const fg__page *page, const fg__page_plan *plan)
     things[count++] = color_key_box(page);
   if (page->has_size_key)
     things[count++] = size_key_box(page);
+  for (int k = 0; k < page->symbol_count; ++k) {
+    const fg__symbol *sign = &page->symbol[k];
+    things[count++] = (fg__page_box){sign->x - sign->radius, sign->y - sign->radius,
+                                     sign->x + sign->radius, sign->y + sign->radius};
+  }
   for (int a = 0; a < count; ++a) {
     check_inside(page, &things[a]);
     for (int b = 0; b < a; ++b) {
@@ -46,7 +51,7 @@ static void nothing_collides_on_any_page(void **state)
   cairo_t *ruler = fg__text_ruler();
   fg__page *page = malloc(sizeof *page);
   assert_non_null(page);
-  int pages = 0, complete = 0;
+  int pages = 0, complete = 0, with_signs = 0;
   for (size_t w = 0; w < sizeof widths / sizeof *widths; ++w)
     for (size_t h = 0; h < sizeof heights / sizeof *heights; ++h)
       for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
@@ -66,8 +71,11 @@ static void nothing_collides_on_any_page(void **state)
             assert_true(page->height == heights[h]);
           ++pages;
           complete += page->has_color_key && page->has_size_key;
+          assert_in_range(page->symbol_count, 0, style == 1 ? 6 : style == 3 ? 3 : 0);
+          with_signs += page->symbol_count > 0;
         }
   assert_true(complete > pages / 4);
+  assert_true(with_signs > pages / 4);
   assert_int_equal(cairo_status(ruler), CAIRO_STATUS_SUCCESS);
   free(page);
   cairo_destroy(ruler);

@@ -70,6 +70,78 @@ static void an_svg_has_one_path_an_arrow_in_its_colour(void **state)
   free(text);
 }
 
+/* A vortex that turns clockwise and a saddle; the hole is far from both. */
+static void turn_field(example *e)
+{
+  static double x[NX], y[NY];
+  static float u[NX * NY], v[NX * NY];
+  for (int i = 0; i < NX; ++i)
+    x[i] = 10.0 + 0.5 * i;
+  for (int j = 0; j < NY; ++j)
+    y[j] = -5.0 + 0.5 * j;
+  for (int n = 0; n < NX * NY; ++n) {
+    u[n] = (float)(y[n / NX] - 4.0);
+    v[n] = (float)(36.0 - (x[n % NX] - 25.0) * (x[n % NX] - 25.0));
+  }
+  const fg_field_arrays arrays = {.dimension = 2,
+                                  .size = {NX, NY, 0},
+                                  .axis = {x, y, NULL},
+                                  .velocity = {u, v, NULL}};
+  fg_field_destroy(e->field);
+  assert_int_equal(fg_field_create(&e->field, e->context, &arrays), FG_STATUS_OK);
+}
+
+/* Strokes of a colour, in percent; the boxes of the first two. */
+static int strokes_of(double box[2][4], const char *text, const char *color)
+{
+  int found = 0;
+  for (const char *path = text; (path = strstr(path, "<path")); ++path) {
+    const char *end = strchr(path, '>'), *stroke = strstr(path, color);
+    if (!stroke || stroke > end)
+      continue;
+    if (found < 2)
+      path_box(box[found], path);
+    ++found;
+  }
+  return found;
+}
+
+static void signs_of_critical_points_are_where_they_lie(void **state)
+{
+  static const char color[] = "stroke:rgb(68%,2%,32%)";
+  example *e = *state;
+  fg_critical_points *points = NULL;
+  double box[2][4];
+  size_t size;
+  turn_field(e);
+  assert_int_equal(fg_critical_points_find(&points, e->context, e->field, NULL),
+                   FG_STATUS_OK);
+  assert_int_equal(fg_critical_points_count(points), 2);
+  fg_icons_keep_critical(e->icons, points);
+  write_picture(e, "a.svg", &(fg_picture_options){.width = 300.0, .no_frame = true});
+  char *text = read_file(e, "a.svg", &size);
+  assert_int_equal(strokes_of(box, text, color), 2);
+  for (int k = 0; k < 2; ++k) {
+    const fg_critical_point *point = fg_critical_points_at(points, k);
+    const double x = 10.0 * (point->at[0] - 10.0), y = 10.0 * (15.0 - point->at[1]);
+    assert_true(fabs(0.5 * (box[k][0] + box[k][2]) - x) < 2.0);
+    assert_true(fabs(0.5 * (box[k][1] + box[k][3]) - y) < 2.0);
+    assert_true(box[k][2] - box[k][0] > 5.0 && box[k][3] - box[k][1] > 5.0);
+  }
+  free(text);
+  write_picture(e, "b.svg", &(fg_picture_options){.width = 300.0});
+  text = read_file(e, "b.svg", &size);
+  assert_int_equal(strokes_of(box, text, color), 4); /* two of the key */
+  assert_non_null(strstr(text, ">saddle</text>"));
+  assert_non_null(strstr(text, ">centre</text>"));
+  assert_null(strstr(text, ">sink</text>"));
+  free(text);
+  write_picture(e, "c.svg", &(fg_picture_options){.width = 300.0, .no_keys = true});
+  text = read_file(e, "c.svg", &size);
+  assert_null(strstr(text, ">saddle</text>"));
+  free(text);
+}
+
 /* Every element that opens also closes, in order; attributes hold no raw marks. Returns
  * how many elements begin so. */
 static int count_elements(const char *text, const char *start)
@@ -308,6 +380,7 @@ int main(void)
       TEST(framed_svgs_are_well_formed),
       TEST(texts_of_an_svg_are_texts),
       TEST(captions_tell_what_is_shown),
+      TEST(signs_of_critical_points_are_where_they_lie),
       TEST(arrows_all_beyond_the_frame_are_refused),
       TEST(a_bare_panel_is_the_picture),
       TEST(panels_have_one_key),

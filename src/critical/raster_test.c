@@ -1,6 +1,6 @@
 /* The raster of domains that fill all of their box, and little of it. */
-#include "score/picture_test.h"
-#include "score/raster.h"
+#include "critical/field_test.h"
+#include "critical/raster.h"
 
 /* The corner of a box along two of its faces. */
 static void corner(const double position[3], double v[3])
@@ -10,7 +10,7 @@ static void corner(const double position[3], double v[3])
     v[0] = (double)NAN;
 }
 
-static double measure_of_cells(const fg__score_raster *raster)
+static double measure_of_cells(const fg__domain_raster *raster)
 {
   double cells = 0.0;
   for (size_t n = 0; n < raster->cells; ++n)
@@ -42,15 +42,16 @@ static void cells_are_wider_where_the_domain_fills_little_of_its_box(void **stat
   };
   for (size_t n = 0; n < sizeof rasters / sizeof rasters[0]; ++n) {
     const expected *e = &rasters[n];
-    fg__score_raster raster;
+    fg__domain_raster raster;
     fg_field *field = field_of(*state, &e->box, e->velocity);
-    assert_int_equal(fg__score_raster_create(&raster, *state, field, NULL), FG_STATUS_OK);
+    assert_int_equal(fg__domain_raster_create(&raster, *state, field, NULL),
+                     FG_STATUS_OK);
     assert_close(raster.measure, e->measure, 1e-9);
     assert_close(measure_of_cells(&raster) / e->measure, 1.0, 0.2);
     const double cells = raster.side / raster.spacing;
     assert_in_range((int)(cells + 0.5), (int)e->least, (int)e->most);
     assert_true(raster.cells <= 3 << 19);
-    fg__score_raster_clear(&raster);
+    fg__domain_raster_clear(&raster);
     fg_field_destroy(field);
   }
 }

@@ -1,4 +1,4 @@
-#include "score/points.h"
+#include "critical/points.h"
 
 #include "base/memory.h"
 
@@ -51,17 +51,16 @@ static int bucket_of(const fg__points *points, int axis, double at)
   return number < 0.0 ? 0 : number > last ? last : (int)number;
 }
 
-fg_status fg__points_add(fg__points *points, fg_context *context, const double at[2],
-                         int index)
+fg_status fg__points_add(fg__points *points, fg_context *context, const fg__point *point)
 {
   if (!fg__grow((void **)&points->point, &points->capacity, points->count + 1,
                 sizeof *points->point))
     return fg__fail_memory(context, "critical points",
                            (points->count + 1) * sizeof *points->point);
-  size_t *last = &points->bucket[bucket_of(points, 1, at[1]) * points->size[0] +
-                                 bucket_of(points, 0, at[0])];
-  points->point[points->count] =
-      (fg__point){.at = {at[0], at[1]}, .index = index, .next = *last};
+  size_t *last = &points->bucket[bucket_of(points, 1, point->at[1]) * points->size[0] +
+                                 bucket_of(points, 0, point->at[0])];
+  points->point[points->count] = *point;
+  points->point[points->count].next = *last;
   *last = points->count++;
   return FG_STATUS_OK;
 }
@@ -129,17 +128,29 @@ static fg_status push_pairs(pairs *heap, fg_context *context, const fg__point *p
   return FG_STATUS_OK;
 }
 
+/* The sums of gradients of points that turn or flow alike. */
+static void add_gradients(fg__point *sum, const fg__point *a, const fg__point *b)
+{
+  const double(*g)[2] = a->gradient, (*h)[2] = b->gradient;
+  const double alike = (g[0][0] + g[1][1]) * (h[0][0] + h[1][1]) +
+                       (g[1][0] - g[0][1]) * (h[1][0] - h[0][1]);
+  for (int k = 0; k < 4 && (alike > 0.0 || sum->index < 0); ++k)
+    sum->gradient[k / 2][k % 2] = g[k / 2][k % 2] + h[k / 2][k % 2];
+}
+
 static fg_status merge_pair(fg__points *points, pairs *heap, fg_context *context,
                             const pair *closest)
 {
   fg__point *a = &points->point[closest->a], *b = &points->point[closest->b];
-  const double middle[2] = {0.5 * (a->at[0] + b->at[0]), 0.5 * (a->at[1] + b->at[1])};
-  const int index = a->index;
+  fg__point both = {.index = a->index};
   a->gone = b->gone = true;
-  if (index != b->index)
+  if (a->index != b->index)
     return FG_STATUS_OK;
+  for (int k = 0; k < 2; ++k)
+    both.at[k] = 0.5 * (a->at[k] + b->at[k]);
+  add_gradients(&both, a, b);
   const size_t place = points->count;
-  fg_status status = fg__points_add(points, context, middle, index);
+  fg_status status = fg__points_add(points, context, &both);
   return status != FG_STATUS_OK ? status
                                 : push_pairs(heap, context, &points->point[place], place,
                                              points, place, false);

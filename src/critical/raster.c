@@ -1,4 +1,4 @@
-#include "score/raster.h"
+#include "critical/raster.h"
 
 #include "base/memory.h"
 #include "field/still.h"
@@ -18,7 +18,7 @@ enum { AMPLE_CELLS = 3 << 19, MOST_CELLS = 1 << 24 };
 static const double WIDENING = 1.05;
 
 /* Sets the cells along each axis, of about the wanted side; returns how many it takes. */
-static double set_size(fg__score_raster *raster, const fg__field_box *bounds)
+static double set_size(fg__domain_raster *raster, const fg__field_box *bounds)
 {
   double cells = 1.0;
   for (int k = 0; k < 3; ++k) {
@@ -38,25 +38,24 @@ static double set_size(fg__score_raster *raster, const fg__field_box *bounds)
   return cells;
 }
 
-static fg_status choose_size(fg__score_raster *raster, fg_context *context,
+static fg_status choose_size(fg__domain_raster *raster, fg_context *context,
                              const fg__field_box *bounds)
 {
   double cells = set_size(raster, bounds);
   if (cells > MOST_CELLS)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "score: the domain, %g of %g in its box, takes more than %d cells",
-                    raster->measure,
-                    (bounds->high[0] - bounds->low[0]) *
-                        (bounds->high[1] - bounds->low[1]) *
-                        (raster->dimension == 3 ? bounds->high[2] - bounds->low[2] : 1.0),
-                    MOST_CELLS);
+    return fg__fail(
+        context, FG_STATUS_UNSUPPORTED,
+        "the domain, %g of %g in its box, takes more than %d cells", raster->measure,
+        (bounds->high[0] - bounds->low[0]) * (bounds->high[1] - bounds->low[1]) *
+            (raster->dimension == 3 ? bounds->high[2] - bounds->low[2] : 1.0),
+        MOST_CELLS);
   for (; cells > AMPLE_CELLS; cells = set_size(raster, bounds))
     raster->spacing *= WIDENING;
   raster->cells = (size_t)cells;
   return FG_STATUS_OK;
 }
 
-static fg_status allocate(fg__score_raster *raster, fg_context *context)
+static fg_status allocate(fg__domain_raster *raster, fg_context *context)
 {
   const size_t cells = raster->cells;
   bool all = true;
@@ -69,11 +68,11 @@ static fg_status allocate(fg__score_raster *raster, fg_context *context)
   }
   if (all && raster->inside && raster->counts && raster->speed)
     return FG_STATUS_OK;
-  return fg__fail_memory(context, "the raster of a score",
+  return fg__fail_memory(context, "a raster of directions",
                          cells * (2 + 4 * (1 + (size_t)raster->dimension)));
 }
 
-static void fill_cell(fg__score_raster *raster, size_t place, const double position[3])
+static void fill_cell(fg__domain_raster *raster, size_t place, const double position[3])
 {
   double velocity[3], tangent[3], speed = 0.0, length = 0.0;
   if (!fg_field_velocity(raster->field, position, velocity))
@@ -95,33 +94,33 @@ static void fill_cell(fg__score_raster *raster, size_t place, const double posit
 
 static void fill_rows(void *argument, const fg__thread *thread)
 {
-  fg__score_raster *raster = argument;
+  fg__domain_raster *raster = argument;
   int row, end;
-  fg__threads_range(thread, (int)fg__score_raster_rows(raster), 1, &row, &end);
+  fg__threads_range(thread, (int)fg__domain_raster_rows(raster), 1, &row, &end);
   for (; row < end; ++row) {
     int at[3] = {0, row % raster->size[1], row / raster->size[1]};
     for (; at[0] < raster->size[0]; ++at[0]) {
       double position[3];
-      fg__score_raster_centre(raster, at, position);
+      fg__domain_raster_centre(raster, at, position);
       fill_cell(raster, (size_t)row * (size_t)raster->size[0] + (size_t)at[0], position);
     }
   }
 }
 
-static void count_cells(fg__score_raster *raster)
+static void count_cells(fg__domain_raster *raster)
 {
   const double top = fg__top_speed(raster->speed, raster->cells);
   for (size_t n = 0; n < raster->cells; ++n)
     raster->counts[n] = raster->inside[n] && fg__moves((double)raster->speed[n], top);
 }
 
-fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
-                                  const fg_field *field, fg__threads *threads)
+fg_status fg__domain_raster_create(fg__domain_raster *out, fg_context *context,
+                                   const fg_field *field, fg__threads *threads)
 {
-  *out = (fg__score_raster){.field = field, .dimension = field->contents.dimension};
+  *out = (fg__domain_raster){.field = field, .dimension = field->contents.dimension};
   if (!fg__field_is_whole(field))
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "score: a part of a field can not be scored, only all of it");
+                    "a part of a field has no raster, only all of it");
   const fg__field_box bounds = fg__field_box_of(field);
   out->measure = bounds.measure;
   out->side = out->dimension == 3 ? cbrt(bounds.measure) : sqrt(bounds.measure);
@@ -136,18 +135,18 @@ fg_status fg__score_raster_create(fg__score_raster *out, fg_context *context,
   return fg__check_stop(context);
 }
 
-void fg__score_raster_clear(fg__score_raster *raster)
+void fg__domain_raster_clear(fg__domain_raster *raster)
 {
   free(raster->inside);
   free(raster->counts);
   free(raster->speed);
   for (int k = 0; k < 3; ++k)
     free(raster->direction[k]);
-  *raster = (fg__score_raster){0};
+  *raster = (fg__domain_raster){0};
 }
 
-bool fg__score_raster_find(const fg__score_raster *raster, const double position[3],
-                           size_t *place)
+bool fg__domain_raster_find(const fg__domain_raster *raster, const double position[3],
+                            size_t *place)
 {
   size_t found = 0;
   for (int k = raster->dimension - 1; k >= 0; --k) {

@@ -1,5 +1,5 @@
-#include "score/picture_test.h"
-#include "score/points.h"
+#include "critical/field_test.h"
+#include "critical/points.h"
 
 static const double LOW[2] = {-1, 2}, HIGH[2] = {9, 8};
 
@@ -8,9 +8,10 @@ static fg__points points_of(fg_context *context, double reach, const double (*li
 {
   fg__points out;
   assert_int_equal(fg__points_create(&out, context, LOW, HIGH, reach), FG_STATUS_OK);
-  for (int n = 0; n < count; ++n)
-    assert_int_equal(fg__points_add(&out, context, list[n], (int)list[n][2]),
-                     FG_STATUS_OK);
+  for (int n = 0; n < count; ++n) {
+    const fg__point point = {.at = {list[n][0], list[n][1]}, .index = (int)list[n][2]};
+    assert_int_equal(fg__points_add(&out, context, &point), FG_STATUS_OK);
+  }
   return out;
 }
 

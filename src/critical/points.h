@@ -8,9 +8,11 @@
 
 typedef struct fg__point {
   double at[2];
-  int index;   /* Poincare's: 1 or -1 */
-  bool gone;   /* merged or cancelled */
-  size_t next; /* in its bucket; SIZE_MAX: none */
+  int index;             /* Poincare's: 1 or -1 */
+  double gradient[2][2]; /* of component i along axis k; added up by merging, but 0
+                             where two turn or flow in opposite senses */
+  bool gone;             /* merged or cancelled */
+  size_t next;           /* in its bucket; SIZE_MAX: none */
 } fg__point;
 
 /* Points in square buckets of the distance that matters. */
@@ -28,8 +30,8 @@ fg_status fg__points_create(fg__points *out, fg_context *context, const double l
                             const double high[2], double reach);
 void fg__points_clear(fg__points *points);
 
-fg_status fg__points_add(fg__points *points, fg_context *context, const double at[2],
-                         int index);
+/* Adds a copy of a point that is not gone. MEMORY. */
+fg_status fg__points_add(fg__points *points, fg_context *context, const fg__point *point);
 
 /* The closest pair nearer than the reach becomes one point, in its middle, or none where
  * their indices cancel; then the closest that is left, and so on. MEMORY. */
