@@ -88,7 +88,7 @@ static void so_they_do_in_the_range_of_theta_and_alpha(void **state)
     double theta, alpha;
     bool rejects;
   } of[] = {{0.0, 0.5001, false}, {0.0, 0.7, false},  {0.0, 1.0, true},
-            {0.01, 0.6, true},   {0.15, 0.6, false}, {0.4, 0.6, false},
+            {0.01, 0.6, true},    {0.15, 0.6, false}, {0.4, 0.6, false},
             {0.49, 0.6, false},   {0.2, 0.8, false}};
   for (size_t n = 0; n < sizeof of / sizeof *of; ++n) {
     int rejected = keeps_promises("vortex3", 65, 120, of[n].theta, of[n].alpha);
