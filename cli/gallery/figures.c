@@ -164,7 +164,8 @@ const gallery_figure gallery_figures[] = {
      .differs = "In the painting's colours, and last with all scales on top of each "
                 "other. A layer of strokes is three evolutions from different noise (the "
                 "broadest four), so that strokes cover the canvas, where the clusters of "
-                "one cover a third of it.",
+                "one cover a third of it. Grey scales of one evolution are made by "
+                "examples/image_scales.c.",
      .command = {"brush monalisa.png -o fig-12-coarse.png --clusters 100",
                  "brush monalisa.png -o fig-12-fine.png --clusters 1000",
                  "brush monalisa.png -o fig-12.png"},
