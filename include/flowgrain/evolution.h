@@ -94,9 +94,9 @@ typedef struct fg_step {
                              covered area is below 0.8 of the coverage */
   int cycles;             /* multigrid cycles spent on this step, rejects included */
   int rejected;           /* attempts rejected before this step was accepted */
-  double residual;        /* with that of the options: of this step's equation, over the
-                             first guess's; of its worst substep. More than was asked for
-                             where floats hold no better u [0: not measured] */
+  double residual;        /* of this step's equation over that of its first guess, of the
+                             worst substep; larger than the option's where floats hold no
+                             better u; 0 without the option */
   int64_t cells;          /* active cells of the mesh */
   int coarsenings;        /* of the mesh, since the evolution began */
   double increment;       /* rms of the change of u in this step */

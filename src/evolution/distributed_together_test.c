@@ -360,9 +360,11 @@ static bool same_on_all(const outcome *all)
     sum = (sum ^ byte[n]) * 0x100000001b3U; /* Fowler, Noll, Vo (1991) */
   double numbers[] = {all->covered, all->energy[THETA_STEPS - 1], all->tau[1],
                       all->mass[1]};
-  byte = (const unsigned char *)numbers;
-  for (size_t n = 0; n < sizeof numbers; ++n)
-    sum = (sum ^ byte[n]) * 0x100000001b3U;
+  for (size_t n = 0; n < sizeof numbers / sizeof *numbers; ++n) {
+    uint64_t bits;
+    memcpy(&bits, &numbers[n], sizeof bits);
+    sum = (sum ^ bits) * 0x100000001b3U;
+  }
   return fg__ranks_alike(us.ranks, sum + (uint64_t)all->clusters);
 }
 

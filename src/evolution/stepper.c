@@ -194,11 +194,11 @@ static bool is_rounding(const fg__stepper *s, double left, double before)
 static void solve_to_residual(fg__stepper *s, double tau, int cycles)
 {
   const double first = residual_now(s, tau);
-  double left = first, before;
+  double left = first;
   bool solved = false;
   for (int n = 0; n < MOST_CYCLES && !solved; n += cycles, cycles = 1) {
+    const double before = left;
     run_cycles(s, tau, cycles);
-    before = left;
     left = residual_now(s, tau);
     solved = left <= s->residual * first || is_rounding(s, left, before);
   }
