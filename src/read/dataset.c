@@ -211,9 +211,9 @@ static fg_status check_places(const fg__vector_choice *c, const fg_read_options 
                                 : status;
 }
 
-fg_status fg__dataset_read(fg_field **out, fg_context *context,
-                           const fg__dataset_format *format, const fg__source *source,
-                           const fg_read_options *options, fg__slab_index slab)
+fg_status fg__dataset_read(fg_field **out, fg_context *context, const fg__format *format,
+                           const fg__source *source, const fg_read_options *options,
+                           fg__slab_index slab)
 {
   fg__vector_choice *c;
   fg__sphere *sphere = NULL;
@@ -236,7 +236,7 @@ fg_status fg__dataset_read(fg_field **out, fg_context *context,
 }
 
 fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
-                             const fg__dataset_format *format, const fg__source *source,
+                             const fg__format *format, const fg__source *source,
                              const fg_read_options *options)
 {
   fg__vector_choice *c;
@@ -449,7 +449,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__dataset *data,
 }
 
 static fg_status describe_all(fg_inventory *inventory, fg_context *context,
-                              const fg__dataset_format *format, const fg__source *source)
+                              const fg__format *format, const fg__source *source)
 {
   fg__dataset data = {0};
   fg__pair *pairs = NULL;
@@ -464,8 +464,8 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
 }
 
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
-                                const fg__dataset_format *format,
-                                const fg__source *source, const fg_read_options *options)
+                                const fg__format *format, const fg__source *source,
+                                const fg_read_options *options)
 {
   fg__vector_choice *c;
   if (!options)

@@ -13,7 +13,7 @@
 
 #include "dataset/dataset.h"
 #include "fields.h"
-#include "read/dataset.h"
+#include "read/format.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -148,8 +148,9 @@ static fg_status add_line(fg__dataset *data, script *s, const char *line)
 }
 
 static fg_status open_script(fg__dataset *data, fg_context *context,
-                             const fg__source *source)
+                             const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   script *s = calloc(1, sizeof *s);
   fg_status status =
       s ? fg__dataset_begin(data, context, source->path, source->size, &DECODER)
@@ -178,17 +179,8 @@ static bool is_script(const unsigned char *bytes, size_t size)
   return size > 1 && bytes[1] == ' ';
 }
 
-static const fg__dataset_format FORMAT = {
-    .name = "script", .is_mine = is_script, .open = open_script};
-
-FG__DATASET_HOOKS(FORMAT)
-
-static const fg__format fg__format_script = {.name = "script",
-                                             .files = "scripts",
-                                             .is_mine = is_script,
-                                             .inventory = inventory_hook,
-                                             .read = read_hook,
-                                             .sphere = sphere_hook};
+static const fg__format fg__format_script = {
+    .name = "script", .files = "scripts", .is_mine = is_script, .open = open_script};
 
 /* The same with options: what is chosen by the size, so that each corpus has all. */
 static void try_options(const uint8_t *bytes, size_t size)
@@ -205,7 +197,8 @@ static void try_options(const uint8_t *bytes, size_t size)
   const fg__source source = {.path = "fuzz.script", .bytes = bytes, .size = size};
   const fg_read_options *chosen = &options[size % (sizeof options / sizeof *options)];
   read_part(&fg__format_script, context, &source, chosen, (fg__slab_index){0, 1});
-  if (sphere_hook(&sphere, context, &source, chosen) == FG_STATUS_OK)
+  if (fg__dataset_sphere(&sphere, context, &fg__format_script, &source, chosen) ==
+      FG_STATUS_OK)
     fg__sphere_destroy(sphere);
   fg_context_destroy(context);
 }

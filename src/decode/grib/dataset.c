@@ -180,8 +180,9 @@ static fg_status read_file(fg__dataset *data, fg__grib_file *file)
 }
 
 fg_status fg__grib_open(fg__dataset *dataset, fg_context *context,
-                        const fg__source *source)
+                        const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   const bool further = dataset->files > 0;
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);

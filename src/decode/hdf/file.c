@@ -81,7 +81,7 @@ fg_status fg__hdf_open(fg__hdf_file **out, fg__vtk *vtk, const char *name,
   hdf->room += MOST_TIMES_LARGER * (double)opened->size;
   if (status == FG_STATUS_OK &&
       fg__nc_kind_of(opened->bytes, opened->size) == FG__NC_HDF5)
-    status = fg__nc_open(&file->data, vtk->context, opened);
+    status = fg__nc_open(&file->data, vtk->context, opened, NULL);
   return status;
 }
 

@@ -385,8 +385,10 @@ static fg_status list_file(fg__dataset *dataset, fg_context *context,
   return list_group(&root, 0);
 }
 
-fg_status fg__nc_open(fg__dataset *dataset, fg_context *context, const fg__source *source)
+fg_status fg__nc_open(fg__dataset *dataset, fg_context *context, const fg__source *source,
+                      const fg_read_options *options)
 {
+  (void)options;
   fg_status status = fg__nc_check_size(context, source);
   fg__nc_state *state = fg__allocate(1, sizeof *state);
   if (!state)

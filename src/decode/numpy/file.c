@@ -327,8 +327,9 @@ static fg_status add_columns(fg__dataset *dataset, numpy_state *file)
 }
 
 fg_status fg__numpy_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source)
+                         const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   if (dataset->files > 0)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a second file cannot be used with NumPy's arrays", source->path);

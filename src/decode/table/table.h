@@ -4,8 +4,7 @@
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
-#include "dataset/dataset.h"
-#include "decode/source.h"
+#include "decode/openers.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -107,14 +106,5 @@ int fg__tecplot_header(fg__table_column *out, int most, fg__table_cursor text);
  * variables), MEMORY. */
 fg_status fg__tecplot_open(fg__dataset *dataset, fg_context *context,
                            const fg__source *source);
-
-/* file.c. Whether bytes are text, but no markup. */
-bool fg__is_table(const unsigned char *bytes, size_t size);
-
-/* Adds the columns to a dataset, along one dimension, the rows'; those without a header
- * are called by their numbers from 1. FILE_FORMAT (no table, naming line and column),
- * UNSUPPORTED, MEMORY. */
-fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source);
 
 #endif

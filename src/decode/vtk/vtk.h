@@ -5,10 +5,7 @@
 #ifndef FG__VTK_H
 #define FG__VTK_H
 
-#include "dataset/dataset.h"
-#include "decode/signature.h"
-#include "decode/source.h"
-#include "flowgrain/field.h"
+#include "decode/openers.h"
 
 typedef enum fg__vtk_place {
   FG__VTK_POINTS,
@@ -152,14 +149,6 @@ fg_status fg__vtk_fill(fg__dataset *data, fg__vtk *vtk);
 
 /* Takes a legacy file apart, into a state that is otherwise empty. */
 fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source);
-
-/* Open a file and add what it holds; the dataset has to be closed also after a failure.
- * Of files that name others (composite/) the options choose time and block. FILE_FORMAT,
- * UNSUPPORTED, ARGUMENT, FILE_ACCESS, MEMORY. */
-fg_status fg__vtk_open(fg__dataset *data, fg_context *context, const fg__source *source,
-                       const fg_read_options *options);
-fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
-                              const fg__source *source, const fg_read_options *options);
 
 /* A file that another one names. */
 typedef struct fg__vtk_file {
