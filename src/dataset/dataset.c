@@ -21,11 +21,13 @@ fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const cha
   dataset->context = context;
   if (dataset->files == FG__DATASET_FILES)
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: one file too many", path);
-  char *copy = fg__copy_text(path);
-  if (!copy)
+  fg__dataset_file *file = &dataset->file[dataset->files++];
+  *file =
+      (fg__dataset_file){.path = fg__copy_text(path), .size = size, .decoder = decoder};
+  if (decoder->state_bytes > 0)
+    file->state = fg__allocate(1, decoder->state_bytes);
+  if (!file->path || (decoder->state_bytes > 0 && !file->state))
     return fail_memory(dataset);
-  dataset->file[dataset->files++] =
-      (fg__dataset_file){.path = copy, .size = size, .decoder = decoder};
   if (dataset->files == 1)
     dataset->component_files = 1;
   return FG_STATUS_OK;
@@ -193,8 +195,10 @@ void fg__dataset_close(fg__dataset *dataset)
 {
   for (int i = 0; i < dataset->files; ++i) {
     fg__dataset_file *file = &dataset->file[i];
-    if (file->state)
+    if (file->state && file->decoder->close)
       file->decoder->close(file->state);
+    if (file->decoder->state_bytes > 0)
+      free(file->state);
     free(file->path);
   }
   clear(dataset->variables, dataset->variable_count);

@@ -76,7 +76,7 @@ static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, 
 }
 
 static const fg__decoder DECODER = {
-    .fetch = fetch, .fetch_texts = fetch_texts, .close = free};
+    .fetch = fetch, .fetch_texts = fetch_texts, .state_bytes = sizeof(script)};
 
 static fg_status add_dimension(fg__dataset *data, const char *line)
 {
@@ -151,17 +151,13 @@ static fg_status open_script(fg__dataset *data, fg_context *context,
                              const fg__source *source, const fg_read_options *options)
 {
   (void)options;
-  script *s = calloc(1, sizeof *s);
   fg_status status =
-      s ? fg__dataset_begin(data, context, source->path, source->size, &DECODER)
-        : FG_STATUS_MEMORY;
-  if (status != FG_STATUS_OK) {
-    free(s);
+      fg__dataset_begin(data, context, source->path, source->size, &DECODER);
+  if (status == FG_STATUS_OK && !fg__dataset_add_group(data))
+    status = FG_STATUS_MEMORY;
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  data->file[data->files - 1].state = s;
-  if (!fg__dataset_add_group(data))
-    return FG_STATUS_MEMORY;
+  script *s = data->file[data->files - 1].state;
   const char *text = (const char *)source->bytes;
   for (size_t at = 0, next; at < source->size && status == FG_STATUS_OK; at = next + 1) {
     char line[LINE];

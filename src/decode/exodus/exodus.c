@@ -187,10 +187,10 @@ static void close_file(void *state)
   fg__exodus *e = state;
   free(e->block);
   fg__dataset_close(&e->file);
-  free(e);
 }
 
-static const fg__decoder DECODER = {.fetch = fetch, .close = close_file};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .state_bytes = sizeof(fg__exodus), .close = close_file};
 
 static bool is_velocity(const char *name)
 {
@@ -242,10 +242,7 @@ fg_status fg__exodus_open(fg__dataset *data, fg_context *context,
       fg__dataset_begin(data, context, source->path, source->size, &DECODER);
   if (status != FG_STATUS_OK)
     return status;
-  fg__exodus *e = data->file[data->files - 1].state = fg__allocate(1, sizeof *e);
-  if (!e)
-    return fg__fail_memory(context, "an Exodus file", sizeof *e);
-  *e = (fg__exodus){.block = NULL};
+  fg__exodus *e = data->file[data->files - 1].state;
   data->space.is_there = data->has_blocks = true;
   status = fg__nc_open(&e->file, context, source, NULL);
   if (status == FG_STATUS_OK && !fg__dataset_add_group(data))

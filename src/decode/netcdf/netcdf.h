@@ -41,6 +41,7 @@ void fg__nc_storage_close(fg__nc_storage *storage);
 
 /* A file that is open: the decoder's state. */
 typedef struct fg__nc_state {
+  bool is_open;
   int root; /* ncid */
   fg__nc_storage storage;
 } fg__nc_state;

@@ -194,11 +194,12 @@ static void close_state(void *state)
   numpy_state *file = state;
   for (size_t i = 0; i < file->count; ++i)
     free(file->array[i].owned);
-  free(file);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fetch, .close = close_state, .has_no_titles = true};
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .state_bytes = sizeof(numpy_state),
+                                    .close = close_state,
+                                    .has_no_titles = true};
 
 /* The dimension without a name of a length; several of one length in one array are told
  * apart by their number there. -1: no memory. */
@@ -333,16 +334,11 @@ fg_status fg__numpy_open(fg__dataset *dataset, fg_context *context,
   if (dataset->files > 0)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a second file cannot be used with NumPy's arrays", source->path);
-  numpy_state *file = fg__allocate(1, sizeof *file);
-  if (!file)
-    return fg__fail_memory(context, "a list of arrays", sizeof *file);
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    free(file);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[0].state = file;
+  numpy_state *file = dataset->file[0].state;
   file->context = context;
   file->path = dataset->file[0].path;
   status = open_arrays(file, source);

@@ -182,11 +182,11 @@ static void close_state(void *state)
   free(s->cell);
   free(s->line);
   free(s->misfit);
-  free(s);
 }
 
 static const fg__decoder DECODER = {.fetch = fetch,
                                     .fetch_texts = fetch_texts,
+                                    .state_bytes = sizeof(table_state),
                                     .close = close_state,
                                     .has_no_titles = true,
                                     .records = "line",
@@ -237,16 +237,11 @@ fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
                     "%s: a second file cannot be used with a table", source->path);
   if (fg__has_zones(source))
     return fg__tecplot_open(dataset, context, source);
-  table_state *s = fg__allocate(1, sizeof *s);
-  if (!s)
-    return fg__fail_memory(context, "a table", sizeof *s);
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    free(s);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[0].state = s;
+  table_state *s = dataset->file[0].state;
   s->table = (fg__table){.context = context, .path = dataset->file[0].path};
   status = fg__table_find_layout(&s->table, source);
   const size_t columns = (size_t)s->table.columns;
