@@ -466,3 +466,16 @@ fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
   fg__velocity_units(out->units, sizeof out->units, pair);
   return status;
 }
+
+fg_field_arrays fg__vector_texts(const fg__vector_words *words, const fg__pair *pair,
+                                 const fg__grid *grid)
+{
+  fg_field_arrays out = {.velocity_units = words->units,
+                         .title = words->title,
+                         .time = words->time[0] ? words->time : NULL,
+                         .level = words->level[0] ? words->level : NULL,
+                         .doubts = grid->doubts[0] ? grid->doubts : NULL};
+  for (int k = 0; k < grid->dimension; ++k)
+    out.velocity_name[k] = fg__component_name(pair, k);
+  return out;
+}
