@@ -256,6 +256,50 @@ size_t fg__type_bytes(fg__type type)
   return bytes[type] ? bytes[type] : 1;
 }
 
+double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapped)
+{
+  union {
+    unsigned char byte[8];
+    int8_t i1;
+    int16_t i2;
+    int32_t i4;
+    int64_t i8;
+    uint8_t u1;
+    uint16_t u2;
+    uint32_t u4;
+    uint64_t u8;
+    float f4;
+    double f8;
+  } n = {.u8 = 0};
+  const size_t size = fg__type_bytes(type);
+  for (size_t i = 0; i < size; ++i)
+    n.byte[i] = bytes[swapped ? size - 1 - i : i];
+  switch (type) {
+  case FG__TYPE_INT8:
+    return n.i1;
+  case FG__TYPE_UINT8:
+    return n.u1;
+  case FG__TYPE_INT16:
+    return n.i2;
+  case FG__TYPE_UINT16:
+    return n.u2;
+  case FG__TYPE_INT32:
+    return n.i4;
+  case FG__TYPE_UINT32:
+    return n.u4;
+  case FG__TYPE_INT64:
+    return (double)n.i8;
+  case FG__TYPE_UINT64:
+    return (double)n.u8;
+  case FG__TYPE_FLOAT32:
+    return (double)n.f4;
+  case FG__TYPE_FLOAT64:
+    return n.f8;
+  default:
+    return 0.0;
+  }
+}
+
 const fg__attribute *fg__attribute_find(const fg__variable *variable,
                                         const char *attribute)
 {

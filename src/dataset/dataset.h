@@ -224,6 +224,10 @@ bool fg__is_floating(const fg__variable *variable);
 /* Bytes of a number of a type; of others 1. */
 size_t fg__type_bytes(fg__type type);
 
+/* The number of a type that begins at some bytes, which may have the other order than
+ * this machine's; of others 0. */
+double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapped);
+
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
  * none. Returns whether there is one. */
 bool fg__attribute_text(const fg__variable *variable, const char *attribute, char *out,

@@ -191,15 +191,9 @@ fg_status fg__xdmf_count(size_t *out, fg__vtk *vtk, const xmlNode *item)
 static fg_status read_array(double *out, const fg__vtk *vtk, fg__vtk_array *array,
                             size_t count)
 {
-  fg__vtk_values values;
   array->name = (char[]){"of a DataItem"};
   array->components = 1;
-  fg_status status = fg__vtk_values_create(&values, vtk, array, count);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n)
-    out[n] = fg__vtk_value(&values, n);
-  if (status == FG_STATUS_OK)
-    fg__vtk_values_clear(&values);
-  return status;
+  return fg__vtk_read_numbers(out, vtk, array, count);
 }
 
 static fg_status read_markup(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)

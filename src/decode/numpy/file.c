@@ -104,19 +104,6 @@ static fg_status load(numpy_state *file, fg__npy_array *array)
   return status;
 }
 
-/* Moves the bytes of number `index` to *out, in this machine's order. */
-static void take_bytes(void *out, const fg__npy_array *array, size_t index)
-{
-  unsigned char *to = out;
-  const unsigned char *from = array->data + index * array->item;
-  if (!array->swapped) {
-    memcpy(to, from, array->item);
-    return;
-  }
-  for (size_t i = 0; i < array->item; ++i)
-    to[i] = from[array->item - 1 - i];
-}
-
 /* IEEE 754's binary16: a sign, 5 bits of exponent, 10 of the fraction. */
 static double half_value(uint16_t bits)
 {
@@ -129,41 +116,11 @@ static double half_value(uint16_t bits)
 
 static double value_at(const fg__npy_array *array, size_t index)
 {
-  union {
-    int8_t i1;
-    int16_t i2;
-    int32_t i4;
-    int64_t i8;
-    uint8_t u1;
-    uint16_t u2;
-    uint32_t u4;
-    uint64_t u8;
-    float f4;
-    double f8;
-  } n = {.u8 = 0};
-  take_bytes(&n, array, index);
-  switch (array->type) {
-  case FG__TYPE_INT8:
-    return n.i1;
-  case FG__TYPE_UINT8:
-    return n.u1;
-  case FG__TYPE_INT16:
-    return n.i2;
-  case FG__TYPE_UINT16:
-    return n.u2;
-  case FG__TYPE_INT32:
-    return (double)n.i4;
-  case FG__TYPE_UINT32:
-    return (double)n.u4;
-  case FG__TYPE_INT64:
-    return (double)n.i8;
-  case FG__TYPE_UINT64:
-    return (double)n.u8;
-  case FG__TYPE_FLOAT32:
-    return array->item == sizeof n.u2 ? half_value(n.u2) : (double)n.f4;
-  default:
-    return n.f8;
-  }
+  const unsigned char *at = array->data + index * array->item;
+  return array->type == FG__TYPE_FLOAT32 && array->item == sizeof(uint16_t)
+             ? half_value(
+                   (uint16_t)fg__number_of_bytes(FG__TYPE_UINT16, at, array->swapped))
+             : fg__number_of_bytes(array->type, at, array->swapped);
 }
 
 /* Numbers of a box of a view, the last axis fastest. */

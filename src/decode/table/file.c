@@ -120,9 +120,7 @@ static fg_status read_rows(table_state *s)
   fg_status status = FG_STATUS_OK;
   if (!fg__number_locale_begin(&locale))
     return fg__fail_memory(s->table.context, "a locale", 1);
-  while (status == FG_STATUS_OK && fg__table_next(&line, &cursor)) {
-    if (fg__table_is_blank(&line) || fg__table_is_comment(&line))
-      continue;
+  while (status == FG_STATUS_OK && fg__table_next_row(&line, &cursor)) {
     if (is_heading(&line))
       break;
     if (line.number % STOP_EVERY == 0)

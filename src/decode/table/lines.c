@@ -56,6 +56,15 @@ bool fg__table_is_comment(const fg__table_line *line)
   return at < line->size && (line->text[at] == '#' || line->text[at] == '%');
 }
 
+bool fg__table_next_row(fg__table_line *line, fg__table_cursor *cursor)
+{
+  bool found;
+  do
+    found = fg__table_next(line, cursor);
+  while (found && (fg__table_is_blank(line) || fg__table_is_comment(line)));
+  return found;
+}
+
 static void trim(fg__table_field *field)
 {
   while (field->size > 0 && is_space(field->text[0])) {

@@ -53,6 +53,9 @@ bool fg__table_is_blank(const fg__table_line *line);
 /* Whether the line begins with # or %, or blanks and one. */
 bool fg__table_is_comment(const fg__table_line *line);
 
+/* The next line that is neither. */
+bool fg__table_next_row(fg__table_line *line, fg__table_cursor *cursor);
+
 /* The field from *at on, which is moved behind it; false when there is none. */
 bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t *at,
                      fg__table_style style);
