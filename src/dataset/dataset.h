@@ -224,6 +224,13 @@ bool fg__is_floating(const fg__variable *variable);
 /* Bytes of a number of a type; of others 1. */
 size_t fg__type_bytes(fg__type type);
 
+/* Whether this machine's numbers begin with their lowest byte. */
+static inline bool fg__is_little_endian(void)
+{
+  const unsigned one = 1;
+  return *(const unsigned char *)&one == 1;
+}
+
 /* The number of a type that begins at some bytes, which may have the other order than
  * this machine's; of others 0. */
 double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapped);

@@ -42,8 +42,7 @@ static bool read_bytes(byte_stream *stream, unsigned char *out, size_t count)
 
 uint64_t fg__vtk_size(const fg__vtk *vtk, const unsigned char *bytes)
 {
-  const uint16_t one = 1;
-  const bool little = (*(const unsigned char *)&one == 1) != vtk->swap;
+  const bool little = fg__is_little_endian() != vtk->swap;
   uint64_t size = 0;
   for (size_t k = 0; k < vtk->header_bytes; ++k)
     size = size << 8 | bytes[little ? vtk->header_bytes - 1 - k : k];
