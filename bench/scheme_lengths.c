@@ -21,7 +21,8 @@ static void create_engine(engine *s, const domain *d, scheme by, double alpha)
   *s = (engine){.by = by};
   create_multigrid(&s->multigrid, d, alpha);
   if (alpha > 0.0)
-    check(!fg__theta_create(&s->theta, NULL, &s->multigrid, alpha), "the theta scheme");
+    check(!fg__theta_create(&s->theta, NULL, &s->multigrid, splitting_of(alpha)),
+          "the theta scheme");
   fg__array_shape shape = fg__multigrid_shape(&s->multigrid, 0);
   s->memory = fg__allocate_aligned(3 * (shape.size + FG__LANES), sizeof(float));
   check(s->memory != NULL, "memory");
@@ -205,7 +206,7 @@ void compare_lengths(const domain *d, const snapshot snapshots[SNAPSHOTS])
   engine schemes[SCHEMES];
   double h2 = d->h * d->h;
   for (int k = 0; k < SCHEMES; ++k)
-    create_engine(&schemes[k], d, (scheme)k, k == THETA ? fg__theta_alpha : 0.0);
+    create_engine(&schemes[k], d, (scheme)k, k == THETA ? fg__theta_default.alpha : 0.0);
   puts("\n## Largest steps, in h²\n");
   puts("| state | scheme | energy falls | two steps can be solved | error of u ≤ 1 % | "
        "error of "

@@ -27,7 +27,7 @@ static double cpu_seconds(void)
 typedef struct curve {
   int count; /* of steps */
   long cycles, rejected;
-  double seconds;
+  double seconds, residual; /* the residual: mean of logarithms */
   double time[MOST_STEPS], energy[MOST_STEPS];
   int clusters[MOST_STEPS];
 } curve;
@@ -51,8 +51,10 @@ static curve *run_to_end(fg_evolution_options options)
     c->clusters[c->count++] = step.clusters;
     c->cycles += step.cycles;
     c->rejected += step.rejected;
+    c->residual += log(step.residual);
   } while (!step.clusters || step.clusters > CLUSTERS);
   c->seconds = cpu_seconds() - start;
+  c->residual = exp(c->residual / c->count);
   fg_evolution_destroy(evolution);
   return c;
 }
@@ -77,6 +79,8 @@ static double energy_at(const curve *c, double time)
 static void compare_run(const char *name, const curve *c, const curve *tight,
                         const double times[TIMES])
 {
+  if (c->residual > 0.0)
+    printf("| %.2g ", c->residual);
   double clusters = 0.0, energy = 0.0;
   for (int k = 0; k < TIMES; ++k) {
     int wanted = tight->clusters[step_at(tight, times[k])];
@@ -89,14 +93,48 @@ static void compare_run(const char *name, const curve *c, const curve *tight,
   fflush(stdout);
 }
 
-static void compare_whole_runs(const curve *tight)
+static void spread_times(double times[TIMES], const curve *tight)
 {
-  double times[TIMES], first = 0.0, last = 0.9 * tight->time[tight->count - 1];
+  double first = 0.0, last = 0.9 * tight->time[tight->count - 1];
   for (int k = 0; first == 0.0; ++k)
     if (tight->clusters[k])
       first = 1.3 * tight->time[k];
   for (int k = 0; k < TIMES; ++k)
     times[k] = first * pow(last / first, k / (TIMES - 1.0));
+}
+
+/* Fixed numbers of cycles against steps that are solved. */
+static void compare_cycles(void)
+{
+  static const struct {
+    const char *name;
+    fg_evolution_options options;
+  } runs[] = {{"1 cycle", {.cycles = 1, .residual = 1e9}},
+              {"2 cycles (default)", {.cycles = 2, .residual = 1e9}},
+              {"3 cycles", {.cycles = 3, .residual = 1e9}},
+              {"4 cycles", {.cycles = 4, .residual = 1e9}},
+              {"6 cycles", {.cycles = 6, .residual = 1e9}},
+              {"to 0.1", {.residual = 1e-1}},
+              {"to 0.01", {.residual = 1e-2}},
+              {"to 0.001", {.residual = 1e-3}}};
+  double times[TIMES];
+  curve *solved = run_to_end((fg_evolution_options){.residual = 1e-4});
+  spread_times(times, solved);
+  puts("\n| residual | a step of BDF2 takes | steps | rejected | cycles | CPU s | N "
+       "differs by % | E differs by % |\n|---|---|---|---|---|---|---|---|");
+  for (size_t n = 0; n < sizeof runs / sizeof runs[0]; ++n) {
+    curve *c = run_to_end(runs[n].options);
+    compare_run(runs[n].name, c, solved, times);
+    free(c);
+  }
+  compare_run("to 0.0001", solved, solved, times);
+  free(solved);
+}
+
+static void compare_whole_runs(const curve *tight)
+{
+  double times[TIMES];
+  spread_times(times, tight);
   static const struct {
     const char *name;
     fg_evolution_options options;
@@ -135,6 +173,7 @@ int main(void)
 {
   check(!fg_field_create_analytic(&field, NULL, "vortex3", NODES), "the field");
   curve *tight = run_to_end((fg_evolution_options){.accuracy = 0.01, .cycles = 6});
+  compare_cycles();
   compare_whole_runs(tight);
   free(tight);
   fg_field_destroy(field);

@@ -85,14 +85,14 @@ void domain_clear(domain *d)
 
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha)
 {
-  check(!multigrid_of_tensor(out, NULL, &d->mesh, &d->tensor, (1.0 - alpha) * d->gamma,
-                             NULL),
+  check(!multigrid_of_tensor(out, NULL, &d->mesh, &d->tensor,
+                             fg__theta_held(splitting_of(alpha)) * d->gamma, NULL),
         "a multigrid");
 }
 
 double stable_step(const domain *d, double alpha)
 {
-  return fg__theta_stable_step(alpha, anisotropy * d->gamma, d->gamma,
+  return fg__theta_stable_step(splitting_of(alpha), anisotropy * d->gamma, d->gamma,
                                4.0 / (d->h * d->h));
 }
 
@@ -100,7 +100,7 @@ void create_stepper(fg__stepper *out, const domain *d, const float *u, scheme by
                     int cycles, double most_tau)
 {
   fg__multigrid multigrid;
-  double alpha = by == THETA ? fg__theta_alpha : 0.0;
+  double alpha = by == THETA ? fg__theta_default.alpha : 0.0;
   create_multigrid(&multigrid, d, alpha);
   fg__level_import(&multigrid.level[0], multigrid.level[0].u, u);
   fg__fill_ghosts(&multigrid.level[0], multigrid.level[0].u);
@@ -111,7 +111,7 @@ void create_stepper(fg__stepper *out, const domain *d, const float *u, scheme by
                                          .accuracy = 0.3,
                                          .cycles = cycles,
                                          .second_order = by == BDF2,
-                                         .alpha = alpha};
+                                         .splitting = splitting_of(alpha)};
   check(!fg__stepper_create(out, NULL, &multigrid, &description), "a stepper");
 }
 
@@ -134,12 +134,12 @@ void export_current(const fg__stepper *s, float *u)
 void create_exact(fg__stepper *out, const domain *d, const float *u)
 {
   enum { TIGHT_CYCLES = 4 };
-  create_stepper(out, d, u, THETA, TIGHT_CYCLES, stable_step(d, fg__theta_alpha));
+  create_stepper(out, d, u, THETA, TIGHT_CYCLES, stable_step(d, fg__theta_default.alpha));
 }
 
 double exact_step(const domain *d)
 {
-  return 0.1 * stable_step(d, fg__theta_alpha);
+  return 0.1 * stable_step(d, fg__theta_default.alpha);
 }
 
 error error_of(const float *u, const float *exact, const float *start)

@@ -47,7 +47,7 @@ static void compare_accuracy(const domain *d, const snapshot snapshots[SNAPSHOTS
   float *exact = plain_array(), *coarser = plain_array();
   for (int n = 0; n < SNAPSHOTS; ++n) {
     const snapshot *m = &snapshots[n];
-    double longest = stable_step(d, fg__theta_alpha);
+    double longest = stable_step(d, fg__theta_default.alpha);
     double time = fmin(m->time / 8.0, most_stable_steps * longest);
     for (int half = 0; half < 2; ++half) {
       fg__stepper s;
@@ -100,7 +100,7 @@ static void compare_limits(const domain *d, const snapshot snapshots[SNAPSHOTS])
               {THETA, false, 0.05}};
   for (size_t k = 0; k < sizeof runs / sizeof runs[0]; ++k) {
     fg__multigrid multigrid;
-    double alpha = runs[k].by == THETA ? fg__theta_alpha : 0.0;
+    double alpha = runs[k].by == THETA ? fg__theta_default.alpha : 0.0;
     double limit = runs[k].limited ? stable_step(d, alpha) : 1.0;
     create_multigrid(&multigrid, d, alpha);
     fg__level_import(&multigrid.level[0], multigrid.level[0].u, snapshots[0].u);
@@ -111,7 +111,7 @@ static void compare_limits(const domain *d, const snapshot snapshots[SNAPSHOTS])
                                            .accuracy = runs[k].accuracy,
                                            .cycles = CYCLES,
                                            .second_order = runs[k].by == BDF2,
-                                           .alpha = alpha};
+                                           .splitting = splitting_of(alpha)};
     fg__stepper s;
     check(!fg__stepper_create(&s, NULL, &multigrid, &description), "a stepper");
     while (s.time < snapshots[1].time - snapshots[0].time)

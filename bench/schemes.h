@@ -34,6 +34,12 @@ typedef struct domain {
 void domain_create(domain *out, fg_field *field);
 void domain_clear(domain *d);
 
+/* With the default theta. */
+static inline fg__splitting splitting_of(double alpha)
+{
+  return (fg__splitting){fg__theta_default.theta, alpha};
+}
+
 /* alpha 0: for implicit steps. */
 void create_multigrid(fg__multigrid *out, const domain *d, double alpha);
 

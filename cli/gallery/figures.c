@@ -14,6 +14,11 @@ const int gallery_data_count = sizeof gallery_data / sizeof gallery_data[0];
 #define SEPARATION(picture, time)                                                        \
   CLUSTERS(picture, "--energy isotropic --noise 0.02 --max-time " time)
 
+/* Twice the paper's nodes a side, for interfaces half as wide. */
+#define SHARP(picture, clusters)                                                         \
+  "texture synth:vortex3 -o " picture " --kind clusters --nodes 513 --pixels "           \
+  "768 --clusters " clusters
+
 /* The same clusters at the same time with another anisotropy. */
 #define ANISOTROPY(picture, a)                                                           \
   CLUSTERS(picture, "--gamma 2e-4 --max-time 0.02 --anisotropy " a)
@@ -53,15 +58,16 @@ const gallery_figure gallery_figures[] = {
      .title = "Clusters of a field, in time and by anisotropy",
      .paper = "The clustering of a field at successive times (upper row), and the effect "
               "of growing anisotropy (lower row); 257 nodes a side.",
-     .differs = "The paper names neither the times nor the values of a. Below, all but a "
-                "is the same: interface energy, noise and time. The interface is "
-                "\xE2\x88\x9A(\xCE\xB3"
-                "a) thick across the stream, so it grows sharper from left to right.",
-     .command = {CLUSTERS("fig-04-a.png", "--clusters 150"),
-                 CLUSTERS("fig-04-b.png", "--clusters 60"),
-                 CLUSTERS("fig-04-c.png", "--clusters 20"),
-                 ANISOTROPY("fig-04-d.png", "1"), ANISOTROPY("fig-04-e.png", "0.5"),
-                 ANISOTROPY("fig-04-f.png", "0.2"), ANISOTROPY("fig-04-g.png", "0.1")},
+     .differs =
+         "The paper names neither the times nor the values of a. Above, 513 nodes a "
+         "side make interfaces half as wide, and sharp. Below, all but a "
+         "is the same: interface energy, noise and time. The interface is "
+         "\xE2\x88\x9A(\xCE\xB3"
+         "a) thick across the stream, so it grows sharper from left to right.",
+     .command = {SHARP("fig-04-a.png", "150"), SHARP("fig-04-b.png", "60"),
+                 SHARP("fig-04-c.png", "20"), ANISOTROPY("fig-04-d.png", "1"),
+                 ANISOTROPY("fig-04-e.png", "0.5"), ANISOTROPY("fig-04-f.png", "0.2"),
+                 ANISOTROPY("fig-04-g.png", "0.1")},
      .picture = {{"fig-04-a.png", "a = 0.15, 150 clusters"},
                  {"fig-04-b.png", "a = 0.15, 60 clusters"},
                  {"fig-04-c.png", "a = 0.15, 20 clusters"},
@@ -105,12 +111,14 @@ const gallery_figure gallery_figures[] = {
          "a spot-noise texture.",
      .differs = "The paper's fields were not published. These are convection in a porous "
                 "layer at Rayleigh numbers 1000 and 3000, computed by "
-                "examples/convection.c.",
+                "examples/convection.c. Arrows go on from their clusters through the "
+                "territories round them (--extent territory), so that no convection cell "
+                "is left empty, and few arrows end in a hook.",
      .command =
          {"run convection_cells.nc -o fig-08-cells --clusters 150,40 --nodes 513 "
-          "--background spots",
+          "--extent territory --background spots",
           "run convection_plumes.nc -o fig-08-plumes --clusters 150,40 --nodes 513 "
-          "--background spots"},
+          "--extent territory --background spots"},
      .picture = {{"fig-08-cells/scale-00.png", "Cells, 150 clusters"},
                  {"fig-08-cells/scale-01.png", "Cells, 40 clusters"},
                  {"fig-08-plumes/scale-00.png", "Plumes, 150 clusters"},
@@ -164,7 +172,8 @@ const gallery_figure gallery_figures[] = {
      .differs = "In the painting's colours, and last with all scales on top of each "
                 "other. A layer of strokes is three evolutions from different noise (the "
                 "broadest four), so that strokes cover the canvas, where the clusters of "
-                "one cover a third of it.",
+                "one cover a third of it. Grey scales of one evolution are made by "
+                "examples/image_scales.c.",
      .command = {"brush monalisa.png -o fig-12-coarse.png --clusters 100",
                  "brush monalisa.png -o fig-12-fine.png --clusters 1000",
                  "brush monalisa.png -o fig-12.png"},

@@ -28,6 +28,15 @@ static bool check_energy(const evolution_settings *settings, const cli_command *
   return true;
 }
 
+static bool check_scheme(const evolution_settings *settings, const cli_command *command)
+{
+  const bool theta = settings->theta > 0.0;
+  return settings->scheme == FG_SCHEME_THETA || (!theta && !(settings->alpha > 0.0)) ||
+         usage_error(command, "--%s %g: only with --scheme theta",
+                     theta ? "theta" : "alpha",
+                     theta ? settings->theta : settings->alpha);
+}
+
 /* Options that choose scales exclude each other. */
 static bool check_placement(const run_settings *settings, const cli_command *command)
 {
@@ -191,5 +200,6 @@ bool options_check(const any_settings *settings, const cli_command *command)
   if (run->resume && run->force)
     return usage_error(command,
                        "--resume goes on with what --force would replace: say one");
-  return check_placement(run, command) && check_energy(&run->evolution, command);
+  return check_placement(run, command) && check_energy(&run->evolution, command) &&
+         check_scheme(&run->evolution, command);
 }

@@ -156,6 +156,18 @@ static const option_entry method_entries[] = {
     {"scheme", 0, "KIND", RUNS, OPTION_CHOICE, EVOLUTION(scheme), .words = scheme_words,
      .help = "time steps: backward differences of second order, implicit `euler`, or the "
              "`theta` splitting, stable in far shorter steps only [bdf2]"},
+    {"theta", 0, "T", RUNS, OPTION_NUMBER, EVOLUTION(theta), 0, 0.5, .open_below = true,
+     .open_above = true,
+     .help = "--scheme theta: share of a step that its first and its last substep take, "
+             "in (0,0.5) [1 - 1/sqrt(2), the only one of second order]"},
+    {"alpha", 0, "A", RUNS, OPTION_NUMBER, EVOLUTION(alpha), 0.5, 1, .open_below = true,
+     .help = "--scheme theta: share of the gradient term that these substeps take "
+             "implicitly, in (0.5,1] [2 - sqrt(2)]"},
+    {"residual", 0, "R", RUNS, OPTION_NUMBER, EVOLUTION(residual), 0, 1,
+     .open_below = true, .open_above = true,
+     .help = "each step, or substep, takes multigrid cycles until the residual of its "
+             "equation is at most R times that of its first guess: a reference for the "
+             "fixed number of cycles [2 cycles a step, of other schemes than bdf2 3]"},
     {"max-time", 0, "T", RUNS, OPTION_NUMBER, OWN(run, max_time), 0, 1e300,
      .open_below = true,
      .help = "stop when the simulated scale t reaches T; its state is the last scale"},

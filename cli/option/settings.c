@@ -34,6 +34,9 @@ fg_evolution_options settings_evolution(const evolution_settings *settings,
       .nodes = settings->nodes,
       .mesh = (fg_mesh_kind)settings->mesh,
       .scheme = (fg_scheme)settings->scheme,
+      .theta = settings->theta,
+      .alpha = settings->alpha,
+      .residual = settings->residual,
       .energy = (fg_energy)(energy_place(settings->energy) < 0
                                 ? 0
                                 : energy_place(settings->energy)),

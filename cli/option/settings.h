@@ -57,6 +57,7 @@ typedef struct evolution_settings {
   int scheme;         /* fg_scheme */
   const char *energy; /* a word of energy_words, or a file; NULL: flow */
   double anisotropy, isotropic_below, coverage, gamma, noise;
+  double theta, alpha, residual;
 } evolution_settings;
 
 typedef struct work_settings {

@@ -23,6 +23,12 @@ static void add_parameters(cJSON *root, const run_facts *facts)
     cJSON_AddNumberToObject(object, "nodes", settings->evolution.nodes);
   json_add_text(object, "mesh", mesh->adaptive ? "adaptive" : "uniform");
   json_add_text(object, "scheme", scheme_words[settings->evolution.scheme]);
+  if (mesh->alpha > 0.0) {
+    cJSON_AddNumberToObject(object, "theta", mesh->theta);
+    cJSON_AddNumberToObject(object, "alpha", mesh->alpha);
+  }
+  if (settings->evolution.residual > 0.0)
+    cJSON_AddNumberToObject(object, "residual", settings->evolution.residual);
   json_add_text(object, "energy",
                 settings->evolution.energy ? settings->evolution.energy : "flow");
   if (!scales_are_solid(facts->field))
@@ -163,6 +169,8 @@ static void add_outcome(cJSON *root, const run_facts *facts)
   cJSON_AddNumberToObject(steps, "accepted", (double)facts->accepted);
   cJSON_AddNumberToObject(steps, "rejected", (double)facts->rejected);
   cJSON_AddNumberToObject(root, "mass_drift", facts->mass_drift);
+  if (facts->largest_residual > 0.0)
+    cJSON_AddNumberToObject(root, "largest_residual", facts->largest_residual);
   cJSON_AddBoolToObject(root, "energy_monotone",
                         facts->energy_monotone && !coarsening_raised_energy(facts));
   cJSON_AddBoolToObject(root, "energy_monotone_between_coarsenings",

@@ -17,7 +17,7 @@ typedef struct run_facts {
   cli_drawing *drawing;
   fg_run_outcome ended;
   long accepted, rejected;
-  double mass_drift;
+  double mass_drift, largest_residual;
   bool energy_monotone; /* at every step, except for coarsenings */
   bool has_page;        /* index.html */
   double seconds_read, seconds_evolve, seconds_total;

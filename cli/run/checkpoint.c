@@ -118,6 +118,7 @@ static char *describe(const cli_run *run)
   add_record(root, run->scales);
   add_whole(root, "rejected", facts->rejected);
   add_exact(root, "mass_drift", facts->mass_drift);
+  add_exact(root, "largest_residual", facts->largest_residual);
   cJSON_AddBoolToObject(root, "energy_monotone", facts->energy_monotone);
   coarsening_add(root, facts);
   cJSON *scales = cJSON_AddArrayToObject(root, "scales");
@@ -318,6 +319,7 @@ static void restore_counts(cli_run *run, const cJSON *note)
   run->facts.accepted = run->step.step;
   run->facts.rejected = whole_of(note, "rejected");
   run->facts.mass_drift = real_of(note, "mass_drift");
+  run->facts.largest_residual = real_of(note, "largest_residual");
   run->facts.energy_monotone = cJSON_IsTrue(item_of(note, "energy_monotone"));
   coarsening_restore(&run->facts, note);
   run->facts.seconds_read += real_of(note, "seconds_read");

@@ -124,6 +124,8 @@ static int record_step(cli_run *run, const fg_step *before)
   double drift = fabs(step->mass / measure - (2.0 * mesh->coverage - 1.0));
   if (drift > run->facts.mass_drift)
     run->facts.mass_drift = drift;
+  if (step->residual > run->facts.largest_residual)
+    run->facts.largest_residual = step->residual;
   return ranks_leader() ? table_add(&run->table, step) : EXIT_DONE;
 }
 

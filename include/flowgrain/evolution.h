@@ -62,7 +62,17 @@ typedef struct fg_evolution_options {
                                less this and the mean plus this [1.5] */
   double accuracy;          /* eta: rms change of u allowed in a step [0.08; else 0.05] */
   int cycles;               /* multigrid cycles a step, or a substep [2; else 3] */
+  double residual;          /* a step, or a substep, takes `cycles` and then more, until
+                               the largest residual of its equation is at most this share
+                               of the first guess's; one that 100 cycles do not bring
+                               there is rejected. A large one only measures what `cycles`
+                               leave [0: not measured] */
   fg_scheme scheme;         /* of the time steps [BDF2] */
+  double theta;             /* of the theta scheme, in (0, 1/2): the share of a step that
+                               its first and its last substep take; the scheme is of
+                               second order with the default alone [1 - 1 / sqrt 2] */
+  double alpha;             /* of the theta scheme, in (1/2, 1]: the share of the gradient
+                               term that those substeps take implicitly [2 - sqrt 2] */
   int threads;              /* [all cores] */
   fg_vectors vectors;       /* the widest to use [widest] */
   const float *initial; /* u at the nodes of the mesh, x fastest, as in fg_density_arrays;
@@ -84,6 +94,9 @@ typedef struct fg_step {
                              covered area is below 0.8 of the coverage */
   int cycles;             /* multigrid cycles spent on this step, rejects included */
   int rejected;           /* attempts rejected before this step was accepted */
+  double residual;        /* of this step's equation over that of its first guess, of the
+                             worst substep; larger than the option's where floats hold no
+                             better u; 0 without the option */
   int64_t cells;          /* active cells of the mesh */
   int coarsenings;        /* of the mesh, since the evolution began */
   double increment;       /* rms of the change of u in this step */
@@ -141,6 +154,7 @@ typedef struct fg_mesh_info {
   double spacing[3]; /* in the input's coordinates */
   double gamma;      /* as used, in units of the longest side squared */
   double anisotropy, isotropic_below, coverage, noise; /* as used */
+  double theta, alpha;   /* as used; 0 but with the theta scheme */
   double length;         /* the longest side in the input's coordinates */
   double domain_measure; /* area (volume) of the active cells, units of length squared */
   int64_t active_cells;

@@ -2,11 +2,22 @@
 
 #include <stdlib.h>
 
+int fg__by_size(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+int fg__by_size_of_floats(const void *a, const void *b)
+{
+  const float x = *(const float *)a, y = *(const float *)b;
+  return (x > y) - (x < y);
+}
+
 static int compare(const void *a, const void *b)
 {
-  const double one = ((const fg__weighted *)a)->value;
-  const double other = ((const fg__weighted *)b)->value;
-  return (one > other) - (one < other);
+  return fg__by_size(&((const fg__weighted *)a)->value,
+                     &((const fg__weighted *)b)->value);
 }
 
 static double quantile(const fg__weighted *sorted, size_t count, double weight)

@@ -1,8 +1,12 @@
-/* Values of different weight. */
+/* Values by size, and of different weight. */
 #ifndef FG__WEIGHTED_H
 #define FG__WEIGHTED_H
 
 #include <stddef.h>
+
+/* Orders of numbers for qsort. */
+int fg__by_size(const void *a, const void *b);
+int fg__by_size_of_floats(const void *a, const void *b);
 
 typedef struct fg__weighted {
   double value, weight;

@@ -21,11 +21,13 @@ fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const cha
   dataset->context = context;
   if (dataset->files == FG__DATASET_FILES)
     return fg__fail(context, FG_STATUS_ARGUMENT, "%s: one file too many", path);
-  char *copy = fg__copy_text(path);
-  if (!copy)
+  fg__dataset_file *file = &dataset->file[dataset->files++];
+  *file =
+      (fg__dataset_file){.path = fg__copy_text(path), .size = size, .decoder = decoder};
+  if (decoder->state_bytes > 0)
+    file->state = fg__allocate(1, decoder->state_bytes);
+  if (!file->path || (decoder->state_bytes > 0 && !file->state))
     return fail_memory(dataset);
-  dataset->file[dataset->files++] =
-      (fg__dataset_file){.path = copy, .size = size, .decoder = decoder};
   if (dataset->files == 1)
     dataset->component_files = 1;
   return FG_STATUS_OK;
@@ -193,8 +195,10 @@ void fg__dataset_close(fg__dataset *dataset)
 {
   for (int i = 0; i < dataset->files; ++i) {
     fg__dataset_file *file = &dataset->file[i];
-    if (file->state)
+    if (file->state && file->decoder->close)
       file->decoder->close(file->state);
+    if (file->decoder->state_bytes > 0)
+      free(file->state);
     free(file->path);
   }
   clear(dataset->variables, dataset->variable_count);
@@ -250,6 +254,50 @@ size_t fg__type_bytes(fg__type type)
       [FG__TYPE_INT64] = 8,  [FG__TYPE_UINT64] = 8, [FG__TYPE_FLOAT32] = 4,
       [FG__TYPE_FLOAT64] = 8};
   return bytes[type] ? bytes[type] : 1;
+}
+
+double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapped)
+{
+  union {
+    unsigned char byte[8];
+    int8_t i1;
+    int16_t i2;
+    int32_t i4;
+    int64_t i8;
+    uint8_t u1;
+    uint16_t u2;
+    uint32_t u4;
+    uint64_t u8;
+    float f4;
+    double f8;
+  } n = {.u8 = 0};
+  const size_t size = fg__type_bytes(type);
+  for (size_t i = 0; i < size; ++i)
+    n.byte[i] = bytes[swapped ? size - 1 - i : i];
+  switch (type) {
+  case FG__TYPE_INT8:
+    return n.i1;
+  case FG__TYPE_UINT8:
+    return n.u1;
+  case FG__TYPE_INT16:
+    return n.i2;
+  case FG__TYPE_UINT16:
+    return n.u2;
+  case FG__TYPE_INT32:
+    return n.i4;
+  case FG__TYPE_UINT32:
+    return n.u4;
+  case FG__TYPE_INT64:
+    return (double)n.i8;
+  case FG__TYPE_UINT64:
+    return (double)n.u8;
+  case FG__TYPE_FLOAT32:
+    return (double)n.f4;
+  case FG__TYPE_FLOAT64:
+    return n.f8;
+  default:
+    return 0.0;
+  }
 }
 
 const fg__attribute *fg__attribute_find(const fg__variable *variable,

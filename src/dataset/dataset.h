@@ -95,7 +95,8 @@ typedef struct fg__decoder {
    * takes `size` bytes, ended by NUL. NULL: the format has numbers alone. */
   fg_status (*fetch_texts)(const fg__variable *variable, size_t first, size_t count,
                            char *out, size_t size);
-  void (*close)(void *state);
+  size_t state_bytes; /* of a file's state, which is zeroed and freed; 0: the caller's */
+  void (*close)(void *state); /* frees what the state has; NULL: nothing */
   /* Whether the file has the samples at these indices; NULL: it has all. */
   bool (*has)(const fg__variable *variable, const size_t *index);
   bool has_no_titles; /* but names and units alone */
@@ -170,8 +171,8 @@ struct fg__dataset {
   fg__field_region region; /* that samples are wanted of, where they go on no map */
 };
 
-/* For decoders: begin a file, whose state is theirs to set, and add what it has, each
- * group before its variables. Texts are copied as UTF-8 (base/utf8.h); pointers are
+/* For decoders: begin a file with its state, and add what it has, each group before its
+ * variables. Texts are copied as UTF-8 (base/utf8.h); pointers are
  * borrowed until the next of their kind is added, and NULL, with the message, where
  * memory lacks. ARGUMENT (one file too many), MEMORY. */
 fg_status fg__dataset_begin(fg__dataset *dataset, fg_context *context, const char *path,
@@ -222,6 +223,17 @@ bool fg__is_floating(const fg__variable *variable);
 
 /* Bytes of a number of a type; of others 1. */
 size_t fg__type_bytes(fg__type type);
+
+/* Whether this machine's numbers begin with their lowest byte. */
+static inline bool fg__is_little_endian(void)
+{
+  const unsigned one = 1;
+  return *(const unsigned char *)&one == 1;
+}
+
+/* The number of a type that begins at some bytes, which may have the other order than
+ * this machine's; of others 0. */
+double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapped);
 
 /* A text attribute without white space at its ends, cut to the buffer; "" when there is
  * none. Returns whether there is one. */

@@ -3,8 +3,8 @@
 #include <string.h>
 
 /* A file's first tag begins this early, comments before it included; and the names of an
- * HDF5 file's first groups. */
-enum { MARK_WITHIN = 4096, NAME_WITHIN = 1 << 14 };
+ * HDF5 file's first groups; and those of dimensions. */
+enum { MARK_WITHIN = 4096, NAME_WITHIN = 1 << 14, DIMENSIONS_WITHIN = 1 << 18 };
 
 fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
 {
@@ -25,11 +25,14 @@ fg__nc_kind fg__nc_kind_of(const unsigned char *bytes, size_t size)
 static bool has_text(const unsigned char *bytes, size_t size, size_t within,
                      const char *text)
 {
-  const size_t length = strlen(text), end = size < within ? size : within;
-  size_t at = 0;
-  while (at + length <= end && memcmp(bytes + at, text, length) != 0)
-    ++at;
-  return at + length <= end;
+  const size_t length = strlen(text);
+  const unsigned char *end = bytes + (size < within ? size : within);
+  for (const unsigned char *at = bytes;
+       (size_t)(end - at) >= length && (at = memchr(at, text[0], (size_t)(end - at)));
+       ++at)
+    if ((size_t)(end - at) >= length && memcmp(at, text, length) == 0)
+      return true;
+  return false;
 }
 
 /* Whether a file is markup with a tag early in it. */
@@ -57,6 +60,13 @@ bool fg__is_vtkhdf(const unsigned char *bytes, size_t size)
 {
   return fg__nc_kind_of(bytes, size) == FG__NC_HDF5 &&
          has_text(bytes, size, NAME_WITHIN, "VTKHDF");
+}
+
+bool fg__is_exodus(const unsigned char *bytes, size_t size)
+{
+  return fg__nc_kind_of(bytes, size) != FG__NC_NONE &&
+         has_text(bytes, size, DIMENSIONS_WITHIN, "num_el_blk") &&
+         has_text(bytes, size, DIMENSIONS_WITHIN, "num_nodes");
 }
 
 bool fg__is_vtk_series(const unsigned char *bytes, size_t size)

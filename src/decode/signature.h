@@ -21,6 +21,8 @@ bool fg__is_vtk_xml(const unsigned char *bytes, size_t size);
 /* A list of VTK files over time in JSON, as ParaView writes it. */
 bool fg__is_vtk_series(const unsigned char *bytes, size_t size);
 bool fg__is_vtk_legacy(const unsigned char *bytes, size_t size);
+/* A NetCDF file with dimensions of nodes and of blocks of elements. */
+bool fg__is_exodus(const unsigned char *bytes, size_t size);
 /* An HDF5 file with a group VTKHDF; and markup that names arrays, in such files mostly.
  */
 bool fg__is_vtkhdf(const unsigned char *bytes, size_t size);

@@ -76,7 +76,8 @@ static double most_step(const fg_evolution *e)
   double gamma = e->info.gamma;
   if (e->options.scheme == FG_SCHEME_THETA) {
     double least = fg__evolution_least_spacing(e);
-    return fg__theta_stable_step(fg__theta_alpha, e->options.anisotropy * gamma, gamma,
+    return fg__theta_stable_step(fg__evolution_splitting(e),
+                                 e->options.anisotropy * gamma, gamma,
                                  4.0 / (least * least));
   }
   double h = pow(fg__evolution_cell_volume(e), 1.0 / e->mesh.dimension);
@@ -104,6 +105,8 @@ static void describe_mesh(fg_evolution *e)
                            .isotropic_below = e->options.isotropic_below,
                            .coverage = e->options.coverage,
                            .noise = e->options.noise,
+                           .theta = e->options.theta,
+                           .alpha = e->options.alpha,
                            .adaptive = fg__evolution_adapts(e),
                            .length = e->mesh.length};
   double cell = 1.0;
@@ -149,13 +152,14 @@ static fg_status create_stepper(fg_evolution *e)
       .most_tau = most_step(e),
       .accuracy = e->options.accuracy,
       .cycles = e->options.cycles,
+      .residual = e->options.residual,
       .second_order = e->options.scheme == FG_SCHEME_BDF2,
-      .alpha = fg__evolution_alpha(e),
+      .splitting = fg__evolution_splitting(e),
       .coarser = e->coarsened};
   fg_status status = fg__ranks_agree(e->ranks, e->context, check_initial(e));
   if (!status)
     status = fg__evolution_multigrid_create(
-        &multigrid, e, (1.0 - fg__evolution_alpha(e)) * e->info.gamma);
+        &multigrid, e, fg__theta_held(description.splitting) * e->info.gamma);
   if (status)
     return status;
   multigrid.kernel = fg__kernel_choose(e->mesh.dimension, e->options.vectors);
@@ -308,6 +312,7 @@ fg_step fg__evolution_describe(const fg_evolution *evolution, int cycles, int re
                    .clusters = e->clusters,
                    .cycles = cycles,
                    .rejected = rejected,
+                   .residual = s->residual_left,
                    .cells = e->info.active_cells,
                    .coarsenings = e->coarsenings,
                    .increment = s->increment,

@@ -53,14 +53,13 @@ fg_status fg__checkpoint_open(fg_checkpoint **out, fg_context *context, const ch
 
 /* Of the present mesh, in units of the longest side: the greatest and the least spacing,
  * the volume of a cell, gamma (that of the options or the default), and the growth rate
- * of the fastest mode of linear theory. Alpha of the theta scheme; 0: an implicit scheme.
- */
+ * of the fastest mode of linear theory. The theta scheme's splitting. */
 double fg__evolution_spacing(const fg_evolution *evolution);
 double fg__evolution_least_spacing(const fg_evolution *evolution);
 double fg__evolution_cell_volume(const fg_evolution *evolution);
 double fg__evolution_interface_energy(const fg_evolution *evolution);
 double fg__evolution_growth_rate(const fg_evolution *evolution);
-double fg__evolution_alpha(const fg_evolution *evolution);
+fg__splitting fg__evolution_splitting(const fg_evolution *evolution);
 
 /* The factor 2^coarsenings: times of the present mesh times this, and its energies over
  * this, are those of the first mesh, which are reported. Each coarsening doubles the

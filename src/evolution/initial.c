@@ -86,7 +86,8 @@ static fg_status bound_subdomain_means(const fg_evolution *e,
   fg_status status = fg__mass_constraint_create(&masses, e->context, multigrid, u);
   bool bounded = !status && fg__mass_constraint_bound(&masses, -1.0, 1.0);
   if (!status && e->coarsened)
-    fg__widen_interfaces(multigrid, e->info.gamma, 1.0 - fg__evolution_alpha(e),
+    fg__widen_interfaces(multigrid, e->info.gamma,
+                         fg__theta_held(fg__evolution_splitting(e)),
                          fg__evolution_least_spacing(e));
   if (bounded || e->coarsened) {
     fg__mass_constraint_restore(&masses, multigrid, u);

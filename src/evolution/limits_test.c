@@ -34,6 +34,33 @@ static void options_out_of_range_are_refused(void **state)
   refuses(f, &(fg_evolution_options){.scheme = (fg_scheme)3}, "scheme 3 ");
 }
 
+static void splittings_and_residuals_out_of_range_are_refused(void **state)
+{
+  static const struct {
+    double theta, alpha, residual;
+    const char *message;
+  } of[] = {{-0.1, 0.0, 0.0, "theta -0.1 is not in (0, 0.5)"},
+            {0.5, 0.0, 0.0, "theta 0.5 is not in (0, 0.5)"},
+            {(double)NAN, 0.0, 0.0, "theta nan "},
+            {0.0, 0.5, 0.0, "alpha 0.5 is not in (0.5, 1]"},
+            {0.0, 1.125, 0.0, "alpha 1.125 is not in (0.5, 1]"},
+            {0.0, (double)NAN, 0.0, "alpha nan "},
+            {0.0, 0.0, -0.5, "residual -0.5 is not in (0, inf)"},
+            {0.0, 0.0, (double)INFINITY, "residual inf is not in (0, inf)"},
+            {0.0, 0.0, (double)NAN, "residual nan "}};
+  for (size_t n = 0; n < sizeof of / sizeof *of; ++n)
+    refuses(*state,
+            &(fg_evolution_options){.scheme = FG_SCHEME_THETA,
+                                    .theta = of[n].theta,
+                                    .alpha = of[n].alpha,
+                                    .residual = of[n].residual},
+            of[n].message);
+  refuses(*state, &(fg_evolution_options){.theta = 0.25},
+          "theta 0.25: only with the scheme theta");
+  refuses(*state, &(fg_evolution_options){.scheme = FG_SCHEME_EULER, .alpha = 0.75},
+          "alpha 0.75: only with the scheme theta");
+}
+
 static void null_arguments_are_refused(void **state)
 {
   fixture *f = *state;
@@ -130,6 +157,7 @@ int main(void)
 #define CASE(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
   const struct CMUnitTest tests[] = {
       CASE(options_out_of_range_are_refused),
+      CASE(splittings_and_residuals_out_of_range_are_refused),
       CASE(null_arguments_are_refused),
       CASE(a_domain_finer_than_the_mesh_is_refused),
       CASE(the_smallest_meshes_run),

@@ -45,9 +45,9 @@ double fg__evolution_interface_energy(const fg_evolution *e)
   return width * width / e->options.anisotropy;
 }
 
-double fg__evolution_alpha(const fg_evolution *e)
+fg__splitting fg__evolution_splitting(const fg_evolution *e)
 {
-  return e->options.scheme == FG_SCHEME_THETA ? fg__theta_alpha : 0.0;
+  return (fg__splitting){e->options.theta, e->options.alpha};
 }
 
 /* In linear theory the mode k grows at k^2 (c - a gamma k^2), c = -Psi''(mean): at most

@@ -42,6 +42,28 @@ static fg_status check_isotropic_below(const fg_evolution_options *o, fg_context
   return FG_STATUS_OK;
 }
 
+static fg_status check_open_range(fg_context *context, const char *name, double value,
+                                  double low, double high)
+{
+  if (value > low && value < high)
+    return FG_STATUS_OK;
+  return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g is not in (%g, %g)", name, value,
+                  low, high);
+}
+
+/* After the defaults: those of other schemes are 0. */
+static fg_status check_splitting(const fg_evolution_options *o, fg_context *context)
+{
+  if (o->scheme != FG_SCHEME_THETA && (o->theta != 0.0 || o->alpha != 0.0))
+    return fg__fail(context, FG_STATUS_ARGUMENT, "%s %g: only with the scheme theta",
+                    o->theta != 0.0 ? "theta" : "alpha",
+                    o->theta != 0.0 ? o->theta : o->alpha);
+  if (o->scheme != FG_SCHEME_THETA)
+    return FG_STATUS_OK;
+  fg_status status = check_open_range(context, "theta", o->theta, 0.0, 0.5);
+  return status ? status : check_range(context, "alpha", o->alpha, 0.5, 1.0, false);
+}
+
 static void fill_in_defaults(fg_evolution_options *o)
 {
   if (o->law->anisotropy > 0.0)
@@ -58,14 +80,21 @@ static void fill_in_defaults(fg_evolution_options *o)
     o->accuracy = default_accuracy[o->scheme];
   if (o->cycles == 0)
     o->cycles = default_cycles[o->scheme];
+  if (o->scheme == FG_SCHEME_THETA && o->theta == 0.0)
+    o->theta = fg__theta_default.theta;
+  if (o->scheme == FG_SCHEME_THETA && o->alpha == 0.0)
+    o->alpha = fg__theta_default.alpha;
 }
 
 static fg_status check_numbers(const fg_evolution_options *o, fg_context *context)
 {
   fg_status status = check_range(context, "anisotropy", o->anisotropy, 0.0, 1.0, false);
-  if (!status && !(o->coverage > 0.0 && o->coverage < 1.0))
-    status = fg__fail(context, FG_STATUS_ARGUMENT, "coverage %g is not in (0, 1)",
-                      o->coverage);
+  if (!status)
+    status = check_open_range(context, "coverage", o->coverage, 0.0, 1.0);
+  if (!status)
+    status = check_splitting(o, context);
+  if (!status && o->residual != 0.0)
+    status = check_open_range(context, "residual", o->residual, 0.0, (double)INFINITY);
   if (!status)
     status = check_range(context, "accuracy", o->accuracy, 0.0, 1.0, false);
   if (!status)
@@ -110,7 +139,8 @@ fg_status fg__evolution_check_alike(const fg_evolution *e)
 {
   const fg_evolution_options *o = &e->options;
   const double numbers[] = {o->anisotropy, o->isotropic_below, o->coverage,
-                            o->gamma,      o->accuracy,        o->noise};
+                            o->gamma,      o->accuracy,        o->noise,
+                            o->residual,   o->theta,           o->alpha};
   const int words[] = {o->nodes,       o->cycles,    (int)o->energy,
                        (int)o->scheme, (int)o->mesh, o->initial != NULL};
   uint64_t key = fg__mix(e->field_fingerprint ^ fg__mix(o->seed));

@@ -102,9 +102,9 @@ static double angle_of_setting(double x, double y, const void *data)
   return angle_at(data, x, y);
 }
 
-/* alpha: of the theta scheme; 0: implicit Euler. */
+/* Its alpha 0: implicit Euler. */
 static void create_setting(setting *s, const bool periodic[2], int cells_x, double mean,
-                           double size, double frequency, double alpha)
+                           double size, double frequency, fg__splitting splitting)
 {
   const double side[2] = {1.0, 0.7};
   s->m = (manufactured){.angle = 1.3,
@@ -117,18 +117,20 @@ static void create_setting(setting *s, const bool periodic[2], int cells_x, doub
   for (int k = 0; k < 2; ++k)
     *axes[k] = periodic[k] ? (axis){2.0 * PI / side[k], 0.9 + k, 0.3 - k}
                            : (axis){PI / side[k], 0.0, 0.0};
-  problem_create(&s->p, &(problem_description){.cells = {cells_x, cells_x / 2},
-                                               .side = {side[0], side[1]},
-                                               .periodic = {periodic[0], periodic[1]},
-                                               .gamma = (1.0 - alpha) * s->m.gamma,
-                                               .anisotropy = s->m.anisotropy,
-                                               .angle = angle_of_setting,
-                                               .angle_data = &s->m});
+  problem_create(&s->p,
+                 &(problem_description){.cells = {cells_x, cells_x / 2},
+                                        .side = {side[0], side[1]},
+                                        .periodic = {periodic[0], periodic[1]},
+                                        .gamma = fg__theta_held(splitting) * s->m.gamma,
+                                        .anisotropy = s->m.anisotropy,
+                                        .angle = angle_of_setting,
+                                        .angle_data = &s->m});
   s->p.of.gamma = s->m.gamma;
   s->theta = (fg__theta){0};
-  if (alpha > 0.0)
-    assert_int_equal(fg__theta_create(&s->theta, s->p.context, &s->p.multigrid, alpha),
-                     FG_STATUS_OK);
+  if (splitting.alpha > 0.0)
+    assert_int_equal(
+        fg__theta_create(&s->theta, s->p.context, &s->p.multigrid, splitting),
+        FG_STATUS_OK);
   for (int k = 0; k < MODES; ++k) {
     s->mode[k] = allocate_or_fail(s->p.nodes, sizeof(jet));
     s->biharmonic[k] = values_of(&s->p);
@@ -237,11 +239,13 @@ static void step_by_theta(setting *s, source_term *f, double t, double tau, doub
   assert_non_null(memory);
   float *start = memory + level->layout.first;
   put(&s->p, start, u);
-  double middle = 1.0 - fg__theta_share(2);
+  fg__splitting splitting = s->theta.splitting;
+  double middle = 1.0 - splitting.theta;
   for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
     double implicit = fg__theta_prepare(&s->theta, &s->p.multigrid, n, tau, start);
     get(&s->p, level->p, u);
-    add_source(s, f, n == 0 ? t : t + middle * tau, fg__theta_share(n) * tau, u);
+    add_source(s, f, n == 0 ? t : t + middle * tau, fg__theta_share(splitting, n) * tau,
+               u);
     solve(s, implicit);
   }
   get(&s->p, level->u, u);
@@ -260,7 +264,8 @@ static double error_of(setting *s, source_term *f, double end, int steps)
   put(p, level->w, w);
   double worst = 0.0;
   for (int step = 0; step < steps; ++step) {
-    (s->theta.alpha > 0.0 ? step_by_theta : step_by_euler)(s, f, tau * step, tau, u);
+    (s->theta.splitting.alpha > 0.0 ? step_by_theta : step_by_euler)(s, f, tau * step,
+                                                                     tau, u);
     exact(s, tau * (step + 1), w);
     for (size_t n = 0; n < p->nodes; ++n)
       w[n] -= u[n];
@@ -271,12 +276,14 @@ static double error_of(setting *s, source_term *f, double end, int steps)
   return worst;
 }
 
+static const fg__splitting implicit = {0.0, 0.0};
+
 /* Spinodal values included, for a time too short for growth. With tau ~ h^2 the error of
  * time falls with that of space, so that both must be right. */
 static double error_in_space(const bool periodic[2], int cells_x)
 {
   setting s;
-  create_setting(&s, periodic, cells_x, 0.25, 1.0, 11.0, 0.0);
+  create_setting(&s, periodic, cells_x, 0.25, 1.0, 11.0, implicit);
   double error = error_of(&s, source, 0.002, cells_x * cells_x / 128);
   clear_setting(&s);
   return error;
@@ -307,11 +314,11 @@ static void periodic_boundaries_have_order_two(void **state)
 }
 
 /* A solution near a minimum, where errors do not grow. */
-static void assert_order_in_time(bool periodic, double alpha, double frequency,
+static void assert_order_in_time(bool periodic, fg__splitting splitting, double frequency,
                                  double end, int first, double order)
 {
   setting s;
-  create_setting(&s, (bool[]){periodic, false}, 64, 0.9, 0.4, frequency, alpha);
+  create_setting(&s, (bool[]){periodic, false}, 64, 0.9, 0.4, frequency, splitting);
   double before = 0.0;
   for (int steps = first; steps <= 4 * first; steps *= 2) {
     double error = error_of(&s, source_discrete_in_space, end, steps);
@@ -328,42 +335,54 @@ static void assert_order_in_time(bool periodic, double alpha, double frequency,
 static void implicit_euler_has_order_one(void **state)
 {
   (void)state;
-  assert_order_in_time(false, 0.0, 90.0, 0.1, 16, 1.0);
-  assert_order_in_time(true, 0.0, 90.0, 0.1, 16, 1.0);
+  assert_order_in_time(false, implicit, 90.0, 0.1, 16, 1.0);
+  assert_order_in_time(true, implicit, 90.0, 0.1, 16, 1.0);
 }
 
-/* Whatever alpha, in steps that are stable; fast, for else the rounding of floats hides
- * its error. */
-static void theta_has_order_two(void **state)
+/* Of second order with the default theta, whatever alpha, in steps that are stable; fast,
+ * for else the rounding of floats hides its error. */
+static void theta_has_its_order(void **state)
 {
   (void)state;
-  assert_order_in_time(false, fg__theta_alpha, 600.0, 0.02, 32, 2.0);
-  assert_order_in_time(false, 0.7, 600.0, 0.02, 32, 2.0);
+  const double theta = fg__theta_default.theta;
+  assert_order_in_time(false, fg__theta_default, 600.0, 0.02, 32, 2.0);
+  assert_order_in_time(false, (fg__splitting){theta, 0.7}, 600.0, 0.02, 32, 2.0);
+  assert_order_in_time(false, (fg__splitting){0.1, 0.7}, 600.0, 0.02, 32, 1.0);
+  assert_order_in_time(false, (fg__splitting){0.45, 0.7}, 600.0, 0.02, 32, 1.0);
 }
 
-/* The stepper's own steps, held at one length, from a density that decays; its
- * differences of the second order begin with a step of the first. */
-static double *end_of_steps(bool second_order, int steps)
+typedef struct stepping {
+  bool second_order;
+  fg__splitting splitting;
+  int first; /* number of steps */
+  double end, order;
+} stepping;
+
+/* The stepper's own steps, held at one length and solved to the rounding of floats, from
+ * a density that decays; its differences of the second order begin with a step of the
+ * first. */
+static double *end_of_steps(const stepping *by, int steps)
 {
-  const double end = 4e-3;
   setting s;
-  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, 0.0);
+  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, by->splitting);
   problem *p = &s.p;
-  double *u = values_of(p);
+  double *u = values_of(p), tau = by->end / steps;
   exact(&s, 0.0, u);
   put(p, p->multigrid.level[0].u, u);
   fg__stepper_description description = {.cell_volume = volume_of(p),
-                                         .first_tau = end / steps,
-                                         .most_tau = end / steps,
+                                         .first_tau = tau,
+                                         .most_tau = tau,
                                          .accuracy = 0.9,
-                                         .cycles = CYCLES,
-                                         .second_order = second_order};
+                                         .cycles = 1,
+                                         .residual = 1e-7,
+                                         .second_order = by->second_order,
+                                         .splitting = by->splitting};
   fg__stepper stepper;
   assert_int_equal(fg__stepper_create(&stepper, p->context, &p->multigrid, &description),
                    FG_STATUS_OK);
   for (int n = 0; n < steps; ++n) {
     assert_int_equal(fg__stepper_advance(&stepper, p->context), FG_STATUS_OK);
-    assert_true(stepper.last_tau == end / steps);
+    assert_true(stepper.last_tau == tau);
   }
   p->multigrid = stepper.multigrid;
   get(p, stepper.current, u);
@@ -373,14 +392,15 @@ static double *end_of_steps(bool second_order, int steps)
   return u;
 }
 
-static void assert_order_of_steps(bool second_order, int first, double order)
+static void assert_order_of_steps(const stepping *by)
 {
   enum { HALVINGS = 5 };
+  const int first = by->first;
   setting s;
-  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, 0.0);
+  create_setting(&s, (bool[]){true, false}, 48, 0.9, 0.4, 0.0, implicit);
   double *u[HALVINGS], before = 0.0;
   for (int n = 0; n < HALVINGS; ++n) {
-    u[n] = end_of_steps(second_order, first << n);
+    u[n] = end_of_steps(by, first << n);
     if (n == 0)
       continue;
     for (size_t k = 0; k < s.p.nodes; ++k)
@@ -390,7 +410,7 @@ static void assert_order_of_steps(bool second_order, int first, double order)
       print_message("# %d to %d steps: %.3g to %.3g, order %.3f\n", first << (n - 1),
                     first << n, before, change, log2(before / change));
       if (n > 2)
-        assert_true(fabs(log2(before / change) - order) < 0.2);
+        assert_true(fabs(log2(before / change) - by->order) < 0.2);
     }
     before = change;
   }
@@ -402,8 +422,13 @@ static void assert_order_of_steps(bool second_order, int first, double order)
 static void steps_have_the_order_of_their_scheme(void **state)
 {
   (void)state;
-  assert_order_of_steps(false, 8, 1.0);
-  assert_order_of_steps(true, 8, 2.0);
+  const double theta = fg__theta_default.theta;
+  const stepping steppings[] = {
+      {false, implicit, 8, 4e-3, 1.0},          {true, implicit, 8, 4e-3, 2.0},
+      {false, fg__theta_default, 8, 4e-3, 2.0}, {false, {theta, 1.0}, 8, 4e-3, 2.0},
+      {false, {0.2, 0.6}, 8, 4e-3, 1.0},        {false, {0.4, 1.0}, 8, 4e-3, 1.0}};
+  for (size_t n = 0; n < sizeof steppings / sizeof *steppings; ++n)
+    assert_order_of_steps(&steppings[n]);
 }
 
 static bool outside_a_notch(double x, double y)
@@ -454,7 +479,7 @@ int main(void)
       cmocka_unit_test(natural_boundaries_have_order_two),
       cmocka_unit_test(periodic_boundaries_have_order_two),
       cmocka_unit_test(implicit_euler_has_order_one),
-      cmocka_unit_test(theta_has_order_two),
+      cmocka_unit_test(theta_has_its_order),
       cmocka_unit_test(steps_have_the_order_of_their_scheme),
       cmocka_unit_test(a_notched_domain_loses_energy_and_keeps_mass),
   };

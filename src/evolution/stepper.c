@@ -2,10 +2,12 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "evolution/residual.h"
 
 /* Step control (docs/design/interfaces.md). The rms correction of the last cycle over the
  * rms change of the step, delta, estimates the algebraic error before that cycle; after
@@ -21,6 +23,12 @@ static const double acceptable_increment = 3.0; /* in units of eta */
 static const double most_growth = 2.0, most_shrinkage = 0.4;
 static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
 static const double most_extrapolation = 2.0;
+
+/* To a residual: a step that so many cycles do not solve is rejected. Rounding is what is
+ * left when a cycle changes u by less than this (rms) and the residual no longer falls.
+ */
+enum { MOST_CYCLES = 100 };
+static const double rounding_correction = 1e-7, rounding_fall = 0.95;
 
 /* A step below this share of the first fails: not its length is the cause. */
 static const double least_tau_share = 1e-9;
@@ -64,6 +72,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
                        .cell_volume = description->cell_volume,
                        .accuracy = description->accuracy,
                        .cycles = description->cycles,
+                       .residual = description->residual,
                        .second_order = description->second_order,
                        .first_tau = description->first_tau,
                        .most_tau = description->most_tau,
@@ -72,15 +81,17 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   *multigrid = (fg__multigrid){0};
   fg__multigrid *m = &out->multigrid;
   fg__array_shape finest = fg__multigrid_shape(m, 0);
-  size_t size = finest.size + FG__LANES, count = 3 * size;
+  size_t size = finest.size + FG__LANES;
+  size_t count = (description->residual > 0.0 ? 5 : 3) * size;
   float *memory = fg__allocate_aligned(count, sizeof *memory);
   fg_status status = FG_STATUS_OK;
   if (!memory)
     status = fg__fail_memory(context, "the time steps", count * sizeof *memory);
   status = fg__ranks_agree(m->ranks, context, status);
   out->memory = memory;
-  if (!status && description->alpha > 0.0)
-    status = fg__theta_create(&out->theta, context, m, description->alpha);
+  bool implicit = !(description->splitting.alpha > 0.0);
+  if (!status && !implicit)
+    status = fg__theta_create(&out->theta, context, m, description->splitting);
   if (status) {
     fg__stepper_clear(out);
     return status;
@@ -88,6 +99,10 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
   out->current = memory + finest.first;
   out->previous = out->current + size;
   out->first_iterate = out->previous + size;
+  if (description->residual > 0.0) {
+    out->scratch[0] = out->first_iterate + size;
+    out->scratch[1] = out->scratch[0] + size;
+  }
   out->total_mass = weigh_domain(out);
   fg__pass_copy(m, fg__multigrid_u(m), out->current);
   status = fg__mass_constraint_create(&out->masses, context, m, out->current);
@@ -96,7 +111,7 @@ fg_status fg__stepper_create(fg__stepper *out, fg_context *context,
     fg__stepper_hold_means(out);
     fg__mass_constraint_restore(&out->masses, m, out->current);
   }
-  if (!status && !(description->alpha > 0.0))
+  if (!status && implicit)
     status = fg__subdomains_create(&out->subdomains, context, m, &out->masses);
   if (status) {
     fg__stepper_clear(out);
@@ -144,7 +159,7 @@ static void guess(fg__stepper *s, double tau, double share)
 /* Runs cycles; s->first_iterate becomes u before the last one. With several subdomains
  * the mean of each is restored after every cycle, so that the next one does not restrict
  * the error of the mean. */
-static fg__changes solve(fg__stepper *s, double tau, int cycles)
+static void run_cycles(fg__stepper *s, double tau, int cycles)
 {
   fg__multigrid *m = &s->multigrid;
   int at_once = s->masses.count > 1 ? 1 : cycles;
@@ -154,8 +169,52 @@ static fg__changes solve(fg__stepper *s, double tau, int cycles)
     fg__mass_constraint_restore(&s->masses, m, fg__multigrid_u(m));
   }
   s->cycles_spent += cycles;
+}
+
+static fg__changes changes_of(const fg__stepper *s)
+{
+  const fg__multigrid *m = &s->multigrid;
   return fg__pass_changes(m, fg__multigrid_u(m), s->current, s->first_iterate,
                           s->previous);
+}
+
+static double residual_now(fg__stepper *s, double tau)
+{
+  return fg__residual(&s->multigrid, &s->subdomains, tau, s->scratch[0], s->scratch[1]);
+}
+
+/* Whether floats hold no better solution. */
+static bool is_rounding(const fg__stepper *s, double left, double before)
+{
+  return left > rounding_fall * before &&
+         sqrt(changes_of(s).correction / s->total_mass) <= rounding_correction;
+}
+
+/* At least the given cycles, then more until the residual is small enough. */
+static void solve_to_residual(fg__stepper *s, double tau, int cycles)
+{
+  const double first = residual_now(s, tau);
+  double left = first;
+  bool solved = false;
+  for (int n = 0; n < MOST_CYCLES && !solved; n += cycles, cycles = 1) {
+    const double before = left;
+    run_cycles(s, tau, cycles);
+    left = residual_now(s, tau);
+    solved = left <= s->residual * first || is_rounding(s, left, before);
+  }
+  double share = first > 0.0 ? left / first : 0.0;
+  if (!(share <= s->residual_left))
+    s->residual_left = share;
+  s->solved = s->solved && solved;
+}
+
+static fg__changes solve(fg__stepper *s, double tau, int cycles)
+{
+  if (s->residual > 0.0)
+    solve_to_residual(s, tau, cycles);
+  else
+    run_cycles(s, tau, cycles);
+  return changes_of(s);
 }
 
 /* Sets up the system of backward differences; returns the tau in its formula. Without
@@ -182,7 +241,7 @@ static double prepare_implicit(fg__stepper *s, double tau)
 static fg__changes step_by_theta(fg__stepper *s, double tau)
 {
   fg__changes sums = {0};
-  guess(s, tau, fg__theta_share(0));
+  guess(s, tau, fg__theta_share(s->theta.splitting, 0));
   for (int n = 0; n < FG__THETA_SUBSTEPS; ++n) {
     double worst = sums.correction;
     double substep = fg__theta_prepare(&s->theta, &s->multigrid, n, tau, s->current);
@@ -230,19 +289,21 @@ static outcome judge(fg__stepper *s, double tau, fg__changes sums)
   /* comparisons are false for NaN, which rejects */
   result.accepted = result.correction <= acceptable_correction &&
                     result.increment <= acceptable_increment * s->accuracy &&
-                    result.energy <= s->energy;
+                    result.energy <= s->energy && s->solved;
   return result;
 }
 
 static outcome attempt(fg__stepper *s, double tau)
 {
-  if (s->theta.alpha > 0.0)
+  s->residual_left = 0.0;
+  s->solved = true;
+  if (s->theta.splitting.alpha > 0.0)
     return judge(s, tau, step_by_theta(s, tau));
   double effective = prepare_implicit(s, tau);
   bool failed = s->tau_limit < s->most_tau; /* an attempt was rejected lately */
   fg__subdomains_solve(&s->subdomains, &s->multigrid, tau, effective, s->current, failed);
   outcome result = judge(s, tau, solve(s, effective, s->cycles));
-  for (int n = 0; n < MORE_CYCLES; ++n) {
+  for (int n = 0; n < MORE_CYCLES && s->solved; ++n) {
     if (result.accepted || result.at_rest || !(result.correction <= hopeless_correction))
       break;
     result = judge(s, tau, solve(s, effective, 1));
@@ -297,12 +358,17 @@ static void pass_time(fg__stepper *s, double tau)
 static fg_status fail_step(const fg__stepper *s, fg_context *context, double tau,
                            const outcome *result)
 {
+  char residual[96] = "";
+  if (s->residual > 0.0)
+    snprintf(residual, sizeof residual,
+             ", its residual %g of the first guess's (at most %g)", s->residual_left,
+             s->residual);
   fg__fail(context, FG_STATUS_NO_CONVERGENCE,
            "no time step is accepted after step %" PRId64 " at t = %g, down to tau = %g: "
            "its rms change is %g, its relative correction %g (at most %g), its energy %g "
-           "(at most %g)",
+           "(at most %g)%s",
            s->accepted, s->time, tau, result->increment, result->correction,
-           acceptable_correction, result->energy, s->energy);
+           acceptable_correction, result->energy, s->energy, residual);
   fg__hint(context, "Take a larger gamma or more nodes.");
   return FG_STATUS_NO_CONVERGENCE;
 }

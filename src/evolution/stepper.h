@@ -9,10 +9,11 @@
 
 typedef struct fg__stepper {
   fg__multigrid multigrid;
-  fg__theta theta;            /* alpha 0: implicit */
+  fg__theta theta;            /* its alpha 0: implicit */
   bool second_order;          /* backward differences over two steps, not one */
   double accuracy;            /* eta */
   int cycles;                 /* a step, or a substep of the theta scheme */
+  double residual;            /* to which it is solved instead; 0: by so many cycles */
   double cell_volume;         /* hx hy (hz), units of the longest side */
   double total_mass;          /* sum of the nodes' relative masses */
   double mean;                /* of u, conserved */
@@ -21,19 +22,22 @@ typedef struct fg__stepper {
   double first_tau, most_tau;
 
   int64_t accepted, rejected, cycles_spent;
-  double time, tau;    /* tau: the next step to try */
-  double last_tau;     /* the last accepted one */
-  double tau_limit;    /* lowered by a rejected attempt, relaxed by accepted steps */
-  double energy, mass; /* of the current u, units of the longest side */
-  double chemical;     /* the double well's part of the energy */
-  double increment;    /* rms of the last step's change */
-  double persistence;  /* share of the last change that the predictor continues */
-  bool history;        /* `previous` is the density one step before `current` */
-  int64_t quiet_steps; /* steps in a row that are quiet (fg__stepper_stationary) */
+  double time, tau;     /* tau: the next step to try */
+  double last_tau;      /* the last accepted one */
+  double tau_limit;     /* lowered by a rejected attempt, relaxed by accepted steps */
+  double energy, mass;  /* of the current u, units of the longest side */
+  double chemical;      /* the double well's part of the energy */
+  double increment;     /* rms of the last step's change */
+  double persistence;   /* share of the last change that the predictor continues */
+  double residual_left; /* the last attempt's, of its worst substep */
+  bool solved;          /* the last attempt is, as far as is asked for */
+  bool history;         /* `previous` is the density one step before `current` */
+  int64_t quiet_steps;  /* steps in a row that are quiet (fg__stepper_stationary) */
 
   /* Arrays of the finest level. A step is computed in the level's own u, which then
    * becomes current: the three are passed round, never copied. */
   float *current, *previous, *first_iterate;
+  float *scratch[2]; /* of residuals */
   void *memory;
 } fg__stepper;
 
@@ -42,9 +46,11 @@ typedef struct fg__stepper_description {
   double first_tau, most_tau; /* steps start with one and never exceed the other */
   double accuracy;
   int cycles;
-  bool second_order; /* implicit: backward differences over two steps, not one */
-  double alpha;      /* of the theta scheme; 0: implicit */
-  bool coarser;      /* u is that of a finer mesh */
+  double residual;         /* over that of the first guess, below which a step is solved;
+                              0: it takes the cycles that are given */
+  bool second_order;       /* implicit: backward differences over two steps, not one */
+  fg__splitting splitting; /* its alpha 0: implicit */
+  bool coarser;            /* u is that of a finer mesh */
 } fg__stepper_description;
 
 /* Takes over a multigrid hierarchy (cleared with the stepper), for the theta scheme as

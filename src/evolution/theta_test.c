@@ -25,13 +25,14 @@ typedef struct setting {
   float *memory, *start;
 } setting;
 
-static void setting_create(setting *s, const problem_description *of, double alpha)
+static void setting_create(setting *s, const problem_description *of,
+                           fg__splitting splitting)
 {
   problem_description part = *of;
-  part.gamma *= 1.0 - alpha;
+  part.gamma *= fg__theta_held(splitting);
   problem_create(&s->p, &part);
   s->p.of.gamma = of->gamma;
-  assert_int_equal(fg__theta_create(&s->theta, s->p.context, &s->p.multigrid, alpha),
+  assert_int_equal(fg__theta_create(&s->theta, s->p.context, &s->p.multigrid, splitting),
                    FG_STATUS_OK);
   const fg__layout *layout = &s->p.multigrid.level[0].layout;
   s->memory = fg__allocate_aligned(layout->array_size, sizeof *s->memory);
@@ -107,12 +108,17 @@ static const problem_description PROBLEMS[] = {
 static void substeps_solve_the_papers_equations(void **state)
 {
   (void)state;
-  const double alphas[] = {fg__theta_alpha, 0.7};
-  for (size_t n = 0; n < 2 * sizeof PROBLEMS / sizeof *PROBLEMS; ++n) {
-    const problem_description *of = &PROBLEMS[n / 2];
-    double alpha = alphas[n % 2], beta = 1.0 - alpha, theta = 1.0 - 1.0 / sqrt(2.0);
+  const fg__splitting splittings[] = {
+      {1.0 - 1.0 / sqrt(2.0), 2.0 - sqrt(2.0)}, {0.15, 0.7}, {0.4, 1.0}};
+  enum { SPLITTINGS = sizeof splittings / sizeof *splittings };
+  assert_true(fabs(splittings[0].theta - fg__theta_default.theta) < 1e-15);
+  assert_true(fabs(splittings[0].alpha - fg__theta_default.alpha) < 1e-15);
+  for (size_t n = 0; n < SPLITTINGS * sizeof PROBLEMS / sizeof *PROBLEMS; ++n) {
+    const problem_description *of = &PROBLEMS[n / SPLITTINGS];
+    const fg__splitting splitting = splittings[n % SPLITTINGS];
+    const double alpha = splitting.alpha, beta = 1.0 - alpha, theta = splitting.theta;
     setting s;
-    setting_create(&s, of, alpha);
+    setting_create(&s, of, splitting);
     double *before = values_of(&s.p), *after = values_of(&s.p);
     uint64_t seed = 99 + n;
     for (size_t k = 0; k < s.p.nodes; ++k)
@@ -141,7 +147,7 @@ static void the_energy_is_that_of_the_whole_gamma(void **state)
   (void)state;
   for (size_t n = 0; n < sizeof PROBLEMS / sizeof *PROBLEMS; ++n) {
     setting s;
-    setting_create(&s, &PROBLEMS[n], 0.6);
+    setting_create(&s, &PROBLEMS[n], (fg__splitting){0.3, n % 2 == 0 ? 0.6 : 1.0});
     double *u = values_of(&s.p);
     uint64_t seed = 7 + n;
     for (size_t k = 0; k < s.p.nodes; ++k)
@@ -158,9 +164,9 @@ static void the_energy_is_that_of_the_whole_gamma(void **state)
 
 /* By what a step multiplies a mode of A = I round u = 1, where Psi'' = 4; lambda is its
  * eigenvalue of M^-1 L. */
-static double amplification(double alpha, double gamma, double lambda, double tau)
+static double amplification(fg__splitting s, double gamma, double lambda, double tau)
 {
-  double theta = 1.0 - 1.0 / sqrt(2.0), middle = 1.0 - 2.0 * theta;
+  double alpha = s.alpha, theta = s.theta, middle = 1.0 - 2.0 * theta;
   double one = tau * lambda * alpha * gamma * lambda;
   double other = tau * lambda * ((1.0 - alpha) * gamma * lambda + 4.0);
   double outer = (1.0 - theta * other) / (1.0 + theta * one);
@@ -179,15 +185,15 @@ static double mode_of(const problem *p, int wave, double *mode)
   return lambda;
 }
 
-static void ripples_grow_as_linear_theory_says(void **state)
+/* The largest factor of a step's ripples, which are to be those of linear theory. */
+static double largest_factor(fg__splitting splitting, double gamma, int first_wave)
 {
-  (void)state;
   const problem_description of = {
-      .cells = {64, 16}, .side = {1.0, 0.25}, .gamma = 5e-4, .anisotropy = 1.0};
+      .cells = {64, 16}, .side = {1.0, 0.25}, .gamma = gamma, .anisotropy = 1.0};
   setting s;
-  setting_create(&s, &of, fg__theta_alpha);
+  setting_create(&s, &of, splitting);
   double *mode = values_of(&s.p), *u = values_of(&s.p), most = 0.0;
-  for (int wave = 3; wave <= 60; wave += 3)
+  for (int wave = first_wave; wave <= 60; wave += 3)
     for (int n = 0; n < 3; ++n) {
       double lambda = mode_of(&s.p, wave, mode), tau = (0.2 + 0.6 * n) * of.gamma;
       const double ripple = 1e-3;
@@ -197,15 +203,38 @@ static void ripples_grow_as_linear_theory_says(void **state)
       for (int k = 0; k < FG__THETA_SUBSTEPS; ++k)
         substep(&s, k, tau, u);
       double factor = inner_product(&s.p, mode, u) / inner_product(&s.p, mode, mode);
-      double expected = amplification(fg__theta_alpha, of.gamma, lambda, tau);
+      double expected = amplification(splitting, of.gamma, lambda, tau);
       assert_true(fabs(factor / ripple - expected) < 0.01);
       if (n > 0)
         most = fmax(most, fabs(factor / ripple));
     }
-  assert_true(most > 1.05);
   free(mode);
   free(u);
   setting_clear(&s);
+  return most;
+}
+
+static void ripples_grow_as_linear_theory_says(void **state)
+{
+  (void)state;
+  assert_true(largest_factor(fg__theta_default, 5e-4, 3) > 1.05);
+  assert_true(largest_factor((fg__splitting){0.45, 0.6}, 5e-4, 3) > 1.05);
+}
+
+/* Stiff waves, of which K is much more than Psi'', decay for every alpha of the range:
+ * the less the nearer it is to 1/2. Below the range they grow. */
+static void stiff_waves_decay_for_alpha_in_its_range(void **state)
+{
+  (void)state;
+  const double theta = fg__theta_default.theta;
+  static const struct {
+    double alpha, least, most;
+  } of[] = {{1.0, 0.0, 0.1}, {0.7, 0.3, 0.6}, {0.55, 0.6, 0.95}, {0.45, 1.05, 1.3}};
+  for (size_t n = 0; n < sizeof of / sizeof *of; ++n) {
+    double most = largest_factor((fg__splitting){theta, of[n].alpha}, 0.05, 24);
+    print_message("# alpha %g: stiff waves by %.3f\n", of[n].alpha, most);
+    assert_true(most > of[n].least && most < of[n].most);
+  }
 }
 
 /* No wave of a mesh grows in the stable step; a slightly longer one lets some. */
@@ -213,21 +242,21 @@ static void the_stable_step_is_the_longest(void **state)
 {
   (void)state;
   static const struct {
-    double alpha, least, most, stiffest;
-  } of[] = {{0.5858, 1.21, 8.07, 4.0},
-            {0.5858, 2.25, 2.25, 4.0},
-            {0.7, 1.21, 8.07, 4.0},
-            {0.5858, 1e-2, 1e-1, 1e7},
-            {0.51, 3.0, 4.0, 4.0}};
+    fg__splitting splitting;
+    double least, most, stiffest;
+  } of[] = {{{0.2929, 0.5858}, 1.21, 8.07, 4.0}, {{0.2929, 0.5858}, 2.25, 2.25, 4.0},
+            {{0.2929, 0.7}, 1.21, 8.07, 4.0},    {{0.2929, 0.5858}, 1e-2, 1e-1, 1e7},
+            {{0.2929, 0.51}, 3.0, 4.0, 4.0},     {{0.1, 0.6}, 1.21, 8.07, 4.0},
+            {{0.45, 0.9}, 1.21, 8.07, 4.0},      {{0.2929, 1.0}, 1.21, 8.07, 4.0}};
   for (size_t n = 0; n < sizeof of / sizeof *of; ++n)
     for (int longer = 0; longer < 2; ++longer) {
       double tau =
           (longer ? 1.01 : 0.999) *
-          fg__theta_stable_step(of[n].alpha, of[n].least, of[n].most, of[n].stiffest);
+          fg__theta_stable_step(of[n].splitting, of[n].least, of[n].most, of[n].stiffest);
       double most = 0.0;
       for (double lambda = of[n].stiffest; lambda > 1e-7 * of[n].stiffest; lambda *= 0.99)
         for (double gamma = of[n].least; gamma <= of[n].most; gamma *= 1.02)
-          most = fmax(most, fabs(amplification(of[n].alpha, gamma, lambda, tau)));
+          most = fmax(most, fabs(amplification(of[n].splitting, gamma, lambda, tau)));
       assert_int_equal(most > 1.0, longer);
     }
 }
@@ -238,6 +267,7 @@ int main(void)
       cmocka_unit_test(substeps_solve_the_papers_equations),
       cmocka_unit_test(the_energy_is_that_of_the_whole_gamma),
       cmocka_unit_test(ripples_grow_as_linear_theory_says),
+      cmocka_unit_test(stiff_waves_decay_for_alpha_in_its_range),
       cmocka_unit_test(the_stable_step_is_the_longest),
   };
   return cmocka_run_group_tests_name("evolution/theta", tests, NULL, NULL);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/weighted.h"
 #include "field/field.h"
 #include "field/plane.h"
 #include "field/slab.h"
@@ -189,12 +190,6 @@ static fg_status find_extent(double low[2], double high[2], const cut *c)
       end_of(volume, 2));
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* A step of an axis that a quarter are shorter than; of an even one any. */
 static fg_status find_step(double *out, const cut *c, int k)
 {
@@ -204,7 +199,7 @@ static fg_status find_step(double *out, const cut *c, int k)
     return fg__fail_memory(c->context, "an axis", (size_t)axis->cells * sizeof *width);
   for (int i = 0; i < axis->cells; ++i)
     width[i] = axis->coordinate[i + 1] - axis->coordinate[i];
-  qsort(width, (size_t)axis->cells, sizeof *width, by_size);
+  qsort(width, (size_t)axis->cells, sizeof *width, fg__by_size);
   *out = width[(int)(SHORTER * axis->cells)];
   free(width);
   return FG_STATUS_OK;

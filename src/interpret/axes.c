@@ -40,6 +40,13 @@ static fg_status read_coordinates(const fg__grid_axis *axis, const fg__dataset *
   return FG_STATUS_OK;
 }
 
+fg__quantity fg__units_of(const fg__variable *v, char *label, size_t size)
+{
+  char text[FG__TEXT_BYTES], unused[FG__TEXT_BYTES];
+  fg__attribute_text(v, "units", text, sizeof text);
+  return fg__units_read(text, label ? label : unused, label ? size : sizeof unused);
+}
+
 /* Adds multiples of 360 degrees where longitudes jump from 180 to -180 or from 360 to
  * 0. */
 static void unwrap(double *x, size_t count)
@@ -118,8 +125,7 @@ static void close_circle(fg__grid_axis *axis)
 static void describe_axis(fg__grid_axis *axis, const fg__variable *coordinate, int k)
 {
   char text[FG__TEXT_BYTES];
-  fg__attribute_text(coordinate, "units", text, sizeof text);
-  axis->quantity = fg__units_read(text, axis->units, sizeof axis->units);
+  axis->quantity = fg__units_of(coordinate, axis->units, sizeof axis->units);
   fg__attribute_text(coordinate, "standard_name", text, sizeof text);
   snprintf(axis->name, sizeof axis->name, "%s", coordinate->plain_name);
   const fg__role geographic = coordinate->geographic;

@@ -36,16 +36,15 @@ static bool is_above_0(const double *value, size_t count)
 static direction direction_in_ocean(const fg__variable *coordinate, const double *value,
                                     size_t count)
 {
-  char name[FG__TEXT_BYTES], units[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
+  char name[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
   const direction positive = attribute_direction(coordinate);
   fg__attribute_text(coordinate, "standard_name", name, sizeof name);
-  fg__attribute_text(coordinate, "units", units, sizeof units);
   if (strstr(name, "ocean_s_") || strstr(name, "ocean_sigma"))
     return positive == NEITHER ? UP : positive;
   if (strcmp(name, "depth") == 0 ||
       (!name[0] && fg__starts_with(coordinate->plain_name, "depth")))
     return positive == NEITHER ? DOWN : positive;
-  const fg__quantity quantity = fg__units_read(units, label, sizeof label);
+  const fg__quantity quantity = fg__units_of(coordinate, label, sizeof label);
   if (quantity == FG__QUANTITY_PRESSURE && strcmp(label, "dbar") != 0)
     return NEITHER; /* air pressure increases downwards, too */
   if (name[0] || quantity != FG__QUANTITY_LENGTH || positive != UP)

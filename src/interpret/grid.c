@@ -35,9 +35,7 @@ static void set_index_axis(const fg__dataset *data, const fg__variable *v, fg__r
 
 static bool has_dates(const fg__variable *v)
 {
-  char units[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
-  fg__attribute_text(v, "units", units, sizeof units);
-  return fg__units_read(units, label, sizeof label) == FG__QUANTITY_DATE;
+  return fg__units_of(v, NULL, 0) == FG__QUANTITY_DATE;
 }
 
 /* Where a coordinate of time has durations only (the steps of a forecast, cfgrib), the
@@ -247,19 +245,12 @@ static void set_positions(fg__grid *grid, const fg__variable *v)
         grid->axis[k].position = p;
 }
 
-static fg__quantity velocity_units(const fg__variable *v, char *label, size_t size)
-{
-  char text[FG__TEXT_BYTES];
-  fg__attribute_text(v, "units", text, sizeof text);
-  return fg__units_read(text, label, size);
-}
-
 static void check_units(fg__grid *grid, const fg__pair *pair, fg__quantity *quantity)
 {
   char of_u[FG__TEXT_BYTES];
   char of_v[FG__TEXT_BYTES];
-  *quantity = velocity_units(pair->component[0], of_u, sizeof of_u);
-  const fg__quantity other = velocity_units(pair->component[1], of_v, sizeof of_v);
+  *quantity = fg__units_of(pair->component[0], of_u, sizeof of_u);
+  const fg__quantity other = fg__units_of(pair->component[1], of_v, sizeof of_v);
   if (pair->polar.sense != 0)
     return;
   if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)

@@ -97,6 +97,9 @@ bool fg__is_time(const fg__dataset *data, const fg__variable *variable, int k);
  * names. */
 fg__role fg__claimed_role(const fg__dataset *data, const fg__variable *variable, int k);
 
+/* axes.c. What a variable's units are of, and their label (NULL: it is not wanted). */
+fg__quantity fg__units_of(const fg__variable *v, char *label, size_t size);
+
 /* Whether a coordinate may be a mere index: it has neither units nor a standard name. */
 bool fg__may_be_index(const fg__variable *coordinate);
 
@@ -404,6 +407,11 @@ typedef struct fg__vector_words {
 
 /* The units of a vector as on an axis label: those of a component that has some. */
 void fg__velocity_units(char *out, size_t size, const fg__pair *pair);
+
+/* These words, the components' names and the grid's doubts as those of a field, which
+ * borrows them. */
+fg_field_arrays fg__vector_texts(const fg__vector_words *words, const fg__pair *pair,
+                                 const fg__grid *grid);
 
 fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
                                 const fg__pair *pair, const fg__grid *grid,

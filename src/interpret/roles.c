@@ -104,14 +104,13 @@ static bool is_single(const fg__dataset *data, const fg__variable *v,
 const fg__variable *fg__single_coordinate(const fg__dataset *data,
                                           const fg__variable *variable, fg__role role)
 {
-  char text[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
+  char text[FG__TEXT_BYTES];
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     if (v->file != variable->file || !is_single(data, v, variable) ||
         !is_named(variable, v) || role_of_attributes(v) != role)
       continue;
-    fg__attribute_text(v, "units", text, sizeof text);
-    const bool date = fg__units_read(text, label, sizeof label) == FG__QUANTITY_DATE;
+    const bool date = fg__units_of(v, NULL, 0) == FG__QUANTITY_DATE;
     fg__attribute_text(v, "standard_name", text, sizeof text);
     if (role != FG__ROLE_TIME || (date && strcmp(text, "forecast_reference_time") != 0))
       return v;

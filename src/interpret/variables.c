@@ -15,12 +15,7 @@ static fg_status fetch(const fg__variable *v, const size_t *start, const size_t 
                         "%s: '%s' cannot be read", v->path, v->name);
 }
 
-static void leave(void *state)
-{
-  (void)state; /* the caller's */
-}
-
-static const fg__decoder DECODER = {.fetch = fetch, .close = leave};
+static const fg__decoder DECODER = {.fetch = fetch};
 
 /* The number of a dimension, which is added where it is new; -1: no memory. */
 static int dimension_of(fg__dataset *data, const char *name, size_t length)

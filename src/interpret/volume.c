@@ -6,18 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void units_label(const fg__variable *v, char label[FG__TEXT_BYTES])
-{
-  char text[FG__TEXT_BYTES];
-  fg__attribute_text(v, "units", text, sizeof text);
-  fg__units_read(text, label, FG__TEXT_BYTES);
-}
-
 static bool same_units(const fg__variable *a, const fg__variable *b)
 {
   char of_a[FG__TEXT_BYTES], of_b[FG__TEXT_BYTES];
-  units_label(a, of_a);
-  units_label(b, of_b);
+  fg__units_of(a, of_a, sizeof of_a);
+  fg__units_of(b, of_b, sizeof of_b);
   return strcmp(of_a, of_b) == 0;
 }
 

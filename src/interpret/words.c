@@ -50,27 +50,20 @@ static bool has_word(const word_list *list, const char *word)
 /* Leaves out the direction in "x-velocity", "u-momentum". */
 static void cut_directions(word_list *list)
 {
-  static const char *const known[] = {"velocity", "wind", "current", "stress",
-                                      "momentum"};
+  static const char known[] = "velocity|wind|current|stress|momentum";
   for (int i = 0; i < list->count; ++i) {
     char *word = list->word[i];
     if (!word[0] || !strchr("uvxyUVXY", word[0]) || word[1] != '-')
       continue;
-    for (size_t k = 0; k < sizeof known / sizeof *known; ++k)
-      if (fg__is_same(word + 2, known[k]))
-        memmove(word, word + 2, strlen(word + 2) + 1);
+    if (fg__is_one_of(known, word + 2, strlen(word + 2)))
+      memmove(word, word + 2, strlen(word + 2) + 1);
   }
 }
 
 static bool is_filler(const char *word)
 {
-  static const char *const filler[] = {"component", "components", "comp.", "of",
-                                       "the",       "along",      "-",     ",",
-                                       "in",        "at",         "to",    "direction"};
-  for (size_t i = 0; i < sizeof filler / sizeof *filler; ++i)
-    if (fg__is_same(word, filler[i]))
-      return true;
-  return false;
+  return fg__is_one_of("component|components|comp.|of|the|along|-|,|in|at|to|direction",
+                       word, strlen(word));
 }
 
 /* Words that say nothing of the vector by themselves. */
@@ -178,11 +171,7 @@ static const char *kind_of_height(const fg__variable *coordinate)
 /* Whether units say no more than that values are numbers of levels or layers. */
 static bool are_none(const char *units)
 {
-  static const char *const known[] = {"", "1", "level", "levels", "layer", "layers"};
-  for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
-    if (fg__is_same(units, known[i]))
-      return true;
-  return false;
+  return fg__is_one_of("|1|level|levels|layer|layers", units, strlen(units));
 }
 
 /* What a number stands for, where it is a flag (CF conventions, section 3.5). */
@@ -465,4 +454,17 @@ fg_status fg__vector_words_find(fg__vector_words *out, const fg__dataset *data,
   fg__vector_title(pair, grid->dimension, out->title, sizeof out->title);
   fg__velocity_units(out->units, sizeof out->units, pair);
   return status;
+}
+
+fg_field_arrays fg__vector_texts(const fg__vector_words *words, const fg__pair *pair,
+                                 const fg__grid *grid)
+{
+  fg_field_arrays out = {.velocity_units = words->units,
+                         .title = words->title,
+                         .time = words->time[0] ? words->time : NULL,
+                         .level = words->level[0] ? words->level : NULL,
+                         .doubts = grid->doubts[0] ? grid->doubts : NULL};
+  for (int k = 0; k < grid->dimension; ++k)
+    out.velocity_name[k] = fg__component_name(pair, k);
+  return out;
 }

@@ -35,18 +35,6 @@ static fg_status check_index(const fg__dataset *data, const char *what, int inde
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status check_missing(const fg__dataset *data, const fg__variable *v,
-                               const fg__missing_counts *missing, size_t samples)
-{
-  if (missing->fill + missing->range + missing->not_a_number < samples)
-    return FG_STATUS_OK;
-  return fg__fail(data->context, FG_STATUS_FILE_FORMAT,
-                  "%s: all %zu samples of '%s' are missing (%zu fill values, %zu outside "
-                  "the valid range, %zu not a number)",
-                  v->path, samples, v->name, missing->fill, missing->range,
-                  missing->not_a_number);
-}
-
 /* Records the missing samples of a slab; whether all are missing is known once all slabs
  * are read. */
 static void keep_missing(const fg_field *field, const fg__velocity_samples *read)
@@ -132,10 +120,8 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
   fg__velocity_samples read = {0};
   char plane[FG__TEXT_BYTES]; /* of the model whose grid has axes in degrees */
   const fg__grid_axis *last = &grid->axis[grid->dimension - 1];
-  char doubts[FG__REASON_BYTES];
   double *axis[3] = {NULL, NULL, NULL}; /* with lines in gaps */
-  memcpy(doubts, grid->doubts, sizeof doubts);
-  const bool gaps = !grid->whole && name_gaps(doubts, grid) > 0;
+  const bool gaps = !grid->whole && name_gaps(part.doubts, grid) > 0;
   const bool layers = !grid->whole && has_two_layers(grid);
   if (last->period > 0.0 || layers || gaps)
     slab = (fg__slab_index){0, 1};
@@ -149,19 +135,14 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
     status = fg__projection_turn(read.velocity, data, grid, &rows);
   const bool all = slab.count == 1 && !grid->whole;
   for (int k = 0; k < grid->dimension && status == FG_STATUS_OK && all; ++k)
-    status = check_missing(data, pair->component[k], &read.missing[k], grid->samples);
+    status = fg__check_any(pair->component[k], &read.missing[k], grid->samples);
   if (status == FG_STATUS_OK) {
-    fg_field_arrays arrays = {.dimension = grid->dimension,
-                              .valid = read.valid,
-                              .scale = grid->scale,
-                              .projection = grid->dimension == 2 && grid->projection[0]
-                                                ? grid->projection
-                                                : NULL,
-                              .velocity_units = words.units,
-                              .title = words.title,
-                              .time = words.time[0] ? words.time : NULL,
-                              .level = words.level[0] ? words.level : NULL,
-                              .doubts = doubts[0] ? doubts : NULL};
+    fg_field_arrays arrays = fg__vector_texts(&words, pair, grid);
+    arrays.dimension = grid->dimension;
+    arrays.valid = read.valid;
+    arrays.scale = grid->scale;
+    if (grid->dimension == 2 && grid->projection[0])
+      arrays.projection = grid->projection;
     if (!arrays.projection && fg__map_is_asked(options->map))
       arrays.projection = fg__axes_plane(plane, pair->component[0], grid);
     for (int k = 0; k < grid->dimension; ++k) {
@@ -169,7 +150,6 @@ static fg_status make_field(fg_field **out, const fg__dataset *data, const fg__p
       arrays.axis[k] = grid->axis[k].coordinate;
       arrays.period[k] = grid->axis[k].period;
       arrays.velocity[k] = read.velocity[k];
-      arrays.velocity_name[k] = fg__component_name(pair, k);
       arrays.axis_name[k] = grid->axis[k].name;
       arrays.axis_units[k] = grid->axis[k].units;
     }
@@ -211,9 +191,9 @@ static fg_status check_places(const fg__vector_choice *c, const fg_read_options 
                                 : status;
 }
 
-fg_status fg__dataset_read(fg_field **out, fg_context *context,
-                           const fg__dataset_format *format, const fg__source *source,
-                           const fg_read_options *options, fg__slab_index slab)
+fg_status fg__dataset_read(fg_field **out, fg_context *context, const fg__format *format,
+                           const fg__source *source, const fg_read_options *options,
+                           fg__slab_index slab)
 {
   fg__vector_choice *c;
   fg__sphere *sphere = NULL;
@@ -236,7 +216,7 @@ fg_status fg__dataset_read(fg_field **out, fg_context *context,
 }
 
 fg_status fg__dataset_sphere(fg__sphere **out, fg_context *context,
-                             const fg__dataset_format *format, const fg__source *source,
+                             const fg__format *format, const fg__source *source,
                              const fg_read_options *options)
 {
   fg__vector_choice *c;
@@ -449,7 +429,7 @@ static fg_status describe_pair(fg_inventory *inventory, const fg__dataset *data,
 }
 
 static fg_status describe_all(fg_inventory *inventory, fg_context *context,
-                              const fg__dataset_format *format, const fg__source *source)
+                              const fg__format *format, const fg__source *source)
 {
   fg__dataset data = {0};
   fg__pair *pairs = NULL;
@@ -464,8 +444,8 @@ static fg_status describe_all(fg_inventory *inventory, fg_context *context,
 }
 
 fg_status fg__dataset_inventory(fg_inventory *inventory, fg_context *context,
-                                const fg__dataset_format *format,
-                                const fg__source *source, const fg_read_options *options)
+                                const fg__format *format, const fg__source *source,
+                                const fg_read_options *options)
 {
   fg__vector_choice *c;
   if (!options)

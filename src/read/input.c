@@ -226,14 +226,14 @@ static fg_status answer_inventory(fg_inventory **out, fg_context *context,
       fg__inventory_create(out, context, format ? format->name : "analytic");
   if (status != FG_STATUS_OK)
     return status;
-  status = format ? format->inventory(*out, context, &input->source,
-                                      all ? NULL : &input->options)
+  status = format ? fg__dataset_inventory(*out, context, format, &input->source,
+                                          all ? NULL : &input->options)
                   : describe_analytic(*out, context, input->name + sizeof SYNTHETIC - 1);
   return name_the_file(context, status, input);
 }
 
-fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input,
-                           const fg__question *question)
+static fg_status answer_here(fg__answer *out, fg_context *context, fg_input *input,
+                             const fg__question *question)
 {
   const fg__source *source = &input->source;
   *out = (fg__answer){.field = NULL};
@@ -260,6 +260,7 @@ fg_status fg_input_open(fg_input **out, fg_context *context, const char *input,
   if (!opened)
     return fg__fail_memory(context, "an input", sizeof *opened);
   opened->name = input;
+  opened->answer = answer_here;
   if (options)
     opened->options = *options;
   if (strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0)
@@ -295,8 +296,8 @@ void fg_input_close(fg_input *input)
 static fg_status ask(fg__answer *out, fg_context *context, fg_input *input,
                      const fg__question *question)
 {
-  return (input->isolation.library ? fg__isolation_ask
-                                   : fg__input_answer)(out, context, input, question);
+  return (input->isolation.library ? fg__isolation_ask : input->answer)(out, context,
+                                                                        input, question);
 }
 
 /* Asks for an inventory unless it is there. */

@@ -15,18 +15,6 @@ typedef struct fg__isolation {
   unsigned seconds;
 } fg__isolation;
 
-struct fg_input {
-  const char *name;
-  fg_read_options options; /* without time and level */
-  fg__source source;
-  const fg__format *format; /* NULL: an analytic field */
-  fg__kept kept;
-  fg_inventory *inventory; /* of the chosen vector, once it was asked for */
-  fg_inventory *all;       /* of all vectors, likewise */
-  fg__isolation isolation;
-  void (*decoded)(void); /* called once samples are read, before a map is made; or NULL */
-};
-
 typedef enum fg__question_kind {
   FG__ASK_VECTOR,
   FG__ASK_ALL_VECTORS,
@@ -45,8 +33,17 @@ typedef struct fg__answer {
   fg_field *field;
 } fg__answer;
 
-/* Answers a question in this process. */
-fg_status fg__input_answer(fg__answer *out, fg_context *context, fg_input *input,
-                           const fg__question *question);
+struct fg_input {
+  const char *name;
+  fg_read_options options; /* without time and level */
+  fg__source source;
+  const fg__format *format; /* NULL: an analytic field */
+  fg__kept kept;
+  fg_inventory *inventory; /* of the chosen vector, once it was asked for */
+  fg_inventory *all;       /* of all vectors, likewise */
+  fg__isolation isolation;
+  fg_status (*answer)(fg__answer *out, fg_context *context, fg_input *input,
+                      const fg__question *question); /* in this process */
+};
 
 #endif

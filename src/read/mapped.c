@@ -105,20 +105,19 @@ fg_status fg__file_field_read(fg__file_field *out, fg_context *context,
                               const fg_read_options *options, fg__slab_index slab)
 {
   *out = (fg__file_field){.field = NULL};
-  if (format->sphere) {
-    const fg_status status = format->sphere(&out->sphere, context, source, options);
-    if (status != FG_STATUS_OK || out->sphere)
-      return status;
-  }
+  fg_status status = fg__dataset_sphere(&out->sphere, context, format, source, options);
+  if (status != FG_STATUS_OK || out->sphere)
+    return status;
   if (fg__region_asked(options).axes > 0) /* each rank cuts the whole field */
     slab = (fg__slab_index){0, 1};
-  const fg_status status = format->read(&out->field, context, source, options, slab);
+  status = fg__dataset_read(&out->field, context, format, source, options, slab);
   if (status != FG_STATUS_OK || slab.count == 1 || !fg__map_is_asked(options->map) ||
       !goes_on_map(out->field, options->map))
     return status;
   /* the rows that a rank has of a map lie across those of all ranks */
   fg__file_field_clear(out);
-  return format->read(&out->field, context, source, options, (fg__slab_index){0, 1});
+  return fg__dataset_read(&out->field, context, format, source, options,
+                          (fg__slab_index){0, 1});
 }
 
 fg_status fg__file_field_place(fg_field **out, fg_context *context,

@@ -1,18 +1,33 @@
 /* Opening of files whose decoders fill a dataset. */
 #include "interpret/projector.h"
 #include "map/map.h"
-#include "read/dataset.h"
+#include "read/format.h"
 #include "read/mapped.h"
 #include "sample/space/space.h"
 
+/* Fails for a second file or a level, where the format has neither. */
+static fg_status check_one_file(fg_context *context, const fg__source *source,
+                                const fg_read_options *options, const char *files)
+{
+  if (options->vars_from)
+    return fg__fail(context, FG_STATUS_UNSUPPORTED,
+                    "%s: a second file with the other component cannot be used with %s",
+                    source->path, files);
+  if (options->level != 0)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "%s: level %d is asked for, but the file holds one only, number 0",
+                    source->path, options->level);
+  return FG_STATUS_OK;
+}
+
 /* What files of that kind, or this one, leave to choose from. */
 static fg_status check_options(const fg__dataset *data, fg_context *context,
-                               const fg__dataset_format *format, const fg__source *source,
+                               const fg__format *format, const fg__source *source,
                                const fg_read_options *options)
 {
   const bool opened = data->files > 0;
   if (!opened && format->alone)
-    return fg__check_one_file(context, source, options, format->alone);
+    return check_one_file(context, source, options, format->alone);
   if (opened && format->alone && options->block && !data->has_blocks)
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "%s: block \"%.100s\" is asked for, but the file has no blocks",
@@ -21,7 +36,7 @@ static fg_status check_options(const fg__dataset *data, fg_context *context,
 }
 
 fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
-                           const fg__dataset_format *format, const fg__source *source,
+                           const fg__format *format, const fg__source *source,
                            const fg_read_options *options)
 {
   static const fg__projector by_proj = {
@@ -33,8 +48,7 @@ fg_status fg__dataset_open(fg__dataset *data, fg_context *context,
   if (options)
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)
-    status = format->open_chosen ? format->open_chosen(data, context, source, options)
-                                 : format->open(data, context, source);
+    status = format->open(data, context, source, options);
   if (options && status == FG_STATUS_OK)
     status = check_options(data, context, format, source, options);
   if (status == FG_STATUS_OK)

@@ -7,6 +7,89 @@
 #include <stdio.h>
 #include <string.h>
 
+/* FG__NETCDF and so on are 1 or 0: CMakeLists.txt. Without the library a format is known,
+ * and refused. */
+#define IF(feature, opener) ((feature) ? (opener) : NULL)
+#define HDF (FG__NETCDF && FG__VTK)
+#define HDF_FEATURE (FG__NETCDF ? FG_FEATURE_VTK : FG_FEATURE_NETCDF)
+
+static bool is_netcdf(const unsigned char *bytes, size_t size)
+{
+  return fg__nc_kind_of(bytes, size) != FG__NC_NONE;
+}
+
+const fg__format fg__format_exodus = {.name = "Exodus",
+                                      .files = "Exodus II (.exo, .e)",
+                                      .is_mine = fg__is_exodus,
+                                      .open = IF(FG__NETCDF, fg__exodus_open),
+                                      .feature = FG_FEATURE_NETCDF,
+                                      .is_chosen = true,
+                                      .alone = "Exodus files"};
+const fg__format fg__format_vtkhdf = {
+    .name = "VTKHDF",
+    .files = "VTKHDF images, unstructured grids and polygons (.vtkhdf, .hdf)",
+    .is_mine = fg__is_vtkhdf,
+    .open = IF(HDF, fg__vtkhdf_open),
+    .feature = HDF_FEATURE,
+    .is_chosen = true,
+    .alone = "VTKHDF files"};
+const fg__format fg__format_netcdf = {
+    .name = "NetCDF",
+    .files = "NetCDF (classic, 64-bit offset, CDF-5, NetCDF-4)",
+    .is_mine = is_netcdf,
+    .open = IF(FG__NETCDF, fg__nc_open),
+    .feature = FG_FEATURE_NETCDF,
+    .has_dimensions = true};
+const fg__format fg__format_grib = {.name = "GRIB",
+                                    .files = "GRIB (editions 1 and 2)",
+                                    .is_mine = fg__is_grib,
+                                    .open = IF(FG__GRIB, fg__grib_open),
+                                    .feature = FG_FEATURE_GRIB,
+                                    .has_dimensions = true};
+const fg__format fg__format_vti = {
+    .name = "VTK XML",
+    .files =
+        "VTK XML images, rectilinear, curvilinear and unstructured grids and planes "
+        "(.vti, .vtr, .vts, .vtu, .vtp), legacy files of them (.vtk), and files that "
+        "name such in parallel, as blocks or over time (.pvti, ..., .vtm, .pvd, .series)",
+    .is_mine = fg__is_vtk_xml,
+    .open = IF(FG__VTK, fg__vtk_open),
+    .feature = FG_FEATURE_VTK,
+    .is_chosen = true,
+    .has_tensors = true,
+    .alone = "VTK files"};
+const fg__format fg__format_vtk_legacy = {.name = "VTK legacy",
+                                          .is_mine = fg__is_vtk_legacy,
+                                          .open = IF(FG__VTK, fg__vtk_open_legacy),
+                                          .feature = FG_FEATURE_VTK,
+                                          .is_chosen = true,
+                                          .has_tensors = true,
+                                          .alone = "VTK files"};
+const fg__format fg__format_vtk_series = {.name = "VTK series",
+                                          .is_mine = fg__is_vtk_series,
+                                          .open = IF(FG__VTK, fg__vtk_open),
+                                          .feature = FG_FEATURE_VTK,
+                                          .is_chosen = true,
+                                          .alone = "VTK files"};
+const fg__format fg__format_xdmf = {.name = "XDMF",
+                                    .files = "XDMF grids and meshes (.xdmf, .xmf)",
+                                    .is_mine = fg__is_xdmf,
+                                    .open = IF(HDF, fg__xdmf_open),
+                                    .feature = HDF_FEATURE,
+                                    .is_chosen = true,
+                                    .alone = "XDMF files"};
+const fg__format fg__format_npy = {.name = "NumPy array",
+                                   .files = "NumPy's arrays (.npy, .npz)",
+                                   .is_mine = fg__is_npy,
+                                   .open = fg__numpy_open};
+const fg__format fg__format_npz = {
+    .name = "NumPy archive", .is_mine = fg__is_npz, .open = fg__numpy_open};
+const fg__format fg__format_table = {
+    .name = "table",
+    .files = "tables of points in text (.csv, .txt, .dat, .vec)",
+    .is_mine = fg__is_table,
+    .open = fg__table_open};
+
 static const fg__format *const FORMATS[] = {
     &fg__format_exodus, &fg__format_vtkhdf,     &fg__format_netcdf,     &fg__format_grib,
     &fg__format_vti,    &fg__format_vtk_legacy, &fg__format_vtk_series, &fg__format_xdmf,
@@ -126,21 +209,7 @@ fg_status fg__source_open_known(fg__source *out, const fg__format **format,
   fg_status status = fg__source_open(out, context, path);
   if (status == FG_STATUS_OK)
     status = find_format(format, context, out);
-  if (status == FG_STATUS_OK && (*format)->is_absent)
+  if (status == FG_STATUS_OK && !(*format)->open)
     status = fg__fail_absent(context, out->path, (*format)->feature);
   return status;
-}
-
-fg_status fg__check_one_file(fg_context *context, const fg__source *source,
-                             const fg_read_options *options, const char *files)
-{
-  if (options->vars_from)
-    return fg__fail(context, FG_STATUS_UNSUPPORTED,
-                    "%s: a second file with the other component cannot be used with %s",
-                    source->path, files);
-  if (options->level != 0)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "%s: level %d is asked for, but the file holds one only, number 0",
-                    source->path, options->level);
-  return FG_STATUS_OK;
 }

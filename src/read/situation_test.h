@@ -253,8 +253,8 @@ static inline void check_text(fg_context *context, const situation *s)
     fail_msg("%s: no format", s->what);
   if (s->field || s->refused) {
     fg_field *field = NULL;
-    const fg_status status =
-        format->read(&field, context, &source, &s->options, (fg__slab_index){0, 1});
+    const fg_status status = fg__dataset_read(&field, context, format, &source,
+                                              &s->options, (fg__slab_index){0, 1});
     assert_slabs_alike(format, &source, &s->options, field);
     check_read(context, s, status, field);
   }
@@ -265,7 +265,8 @@ static inline void check_text(fg_context *context, const situation *s)
     assert_int_equal(fg__inventory_create(&inventory, context, format->name),
                      FG_STATUS_OK);
     check_listed(context, s,
-                 format->inventory(inventory, context, &source, all ? NULL : &s->options),
+                 fg__dataset_inventory(inventory, context, format, &source,
+                                       all ? NULL : &s->options),
                  inventory);
   }
   free(bytes);

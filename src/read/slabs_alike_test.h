@@ -86,8 +86,8 @@ static inline void assert_slabs_alike(const fg__format *format, const fg__source
     bool read = true, slab = true;
     for (int number = 0; number < count; ++number) {
       fg_field *part = NULL;
-      const fg_status status =
-          format->read(&part, context, source, options, (fg__slab_index){number, count});
+      const fg_status status = fg__dataset_read(&part, context, format, source, options,
+                                                (fg__slab_index){number, count});
       assert_true((part != NULL) == (status == FG_STATUS_OK));
       read = read && part;
       if (part && whole) {

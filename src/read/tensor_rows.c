@@ -24,8 +24,8 @@ fg_status fg__tensor_rows_read(fg_field *row[2], fg_context *context, const char
   bool found = false;
   row[0] = row[1] = NULL;
   fg_status status = fg__source_open_known(&source, &format, context, path);
-  if (!status && format->tensors)
-    status = format->tensors(row, &found, context, &source);
+  if (!status && format->has_tensors)
+    status = fg__dataset_tensors(row, &found, context, format, &source);
   status = fg__source_close(&source, context, status);
   if (!status && !found)
     status = read_components(row, context, path, dimension);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "read/dataset.h"
+#include "read/format.h"
 #include "sample/space/space.h"
 
 /* Components of nine beside their mirror images may differ by so much of the largest. */
@@ -108,7 +108,7 @@ static fg_status make_rows(fg_field *row[2], const fg__dataset *data,
 }
 
 fg_status fg__dataset_tensors(fg_field *row[2], bool *found, fg_context *context,
-                              const fg__dataset_format *format, const fg__source *source)
+                              const fg__format *format, const fg__source *source)
 {
   fg__dataset data = {0};
   fg_status status = fg__dataset_open(&data, context, format, source, NULL);

@@ -2,11 +2,11 @@
 #include "read/title.h"
 #include "base/utf8.h"
 #include "field/field.h"
+#include "terms/text.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 static const char PARTING[] = "_-. ";
 enum { STEM_BYTES = 256, LONGEST_ENDING = 8, LEAST_LETTERS = 3 };
@@ -19,12 +19,8 @@ static bool is_letters(const char *title)
 
 static bool is_generic(const char *title)
 {
-  static const char *const word[] = {"vector", "vectors", "vec",      "field",
-                                     "data",   "unknown", "untitled", "none"};
-  for (size_t k = 0; k < sizeof word / sizeof *word; ++k)
-    if (strcasecmp(title, word[k]) == 0)
-      return true;
-  return false;
+  return fg__is_one_of("vector|vectors|vec|field|data|unknown|untitled|none", title,
+                       strlen(title));
 }
 
 /* Names of the components, with commas between. */

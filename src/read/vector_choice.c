@@ -17,17 +17,26 @@ static bool is_one_file(const char *path, const char *other)
          a.st_ino == b.st_ino;
 }
 
+/* Whether a further file has the format of the first, or one with its decoder. */
+static bool is_alike(const fg__format *format, const fg__source *source)
+{
+  const fg__format *own = fg__format_find(source->bytes, source->size);
+  return format->is_mine(source->bytes, source->size) ||
+         (own && own->open == format->open);
+}
+
 static fg_status add_file(fg__dataset *data, fg_context *context,
-                          const fg__dataset_format *format, const char *path)
+                          const fg__format *format, const char *path)
 {
   fg__source source;
   for (int n = 0; n < data->files; ++n)
     if (is_one_file(path, data->file[n].path))
       return fg__fail(context, FG_STATUS_ARGUMENT, "%s: is given twice", path);
   fg_status status = fg__source_open(&source, context, path);
-  if (status == FG_STATUS_OK && !format->is_mine(source.bytes, source.size))
-    status = fg__fail(context, FG_STATUS_FILE_FORMAT,
-                      "%s: is no %s file like the first one", path, format->name);
+  if (status == FG_STATUS_OK && !is_alike(format, &source))
+    status =
+        fg__fail(context, FG_STATUS_FILE_FORMAT, "%s: is no %.*s file like the first one",
+                 path, (int)strcspn(format->name, " "), format->name);
   if (status == FG_STATUS_OK)
     status = fg__dataset_open(data, context, format, &source, NULL);
   return fg__source_close(&source, context, status);
@@ -80,7 +89,7 @@ static void close_choice(void *data)
 }
 
 static fg_status choose(fg__vector_choice *c, fg_context *context,
-                        const fg__dataset_format *format, const fg__source *source,
+                        const fg__format *format, const fg__source *source,
                         const fg_read_options *options)
 {
   fg__dataset *data = &c->data;
@@ -114,12 +123,11 @@ static bool is_of_time(const fg__vector_choice *c, int time)
 }
 
 fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
-                                  const fg__dataset_format *format,
-                                  const fg__source *source,
+                                  const fg__format *format, const fg__source *source,
                                   const fg_read_options *options)
 {
   /* what options open depends on their time and block */
-  fg__kept *kept = format->open_chosen ? NULL : source->kept;
+  fg__kept *kept = format->is_chosen ? NULL : source->kept;
   fg__vector_choice *c = kept ? kept->data : NULL;
   *out = NULL;
   if (c && !is_of_time(c, options->time)) {

@@ -3,7 +3,7 @@
 #define FG__VECTOR_CHOICE_H
 
 #include "interpret/interpret.h"
-#include "read/dataset.h"
+#include "read/format.h"
 
 typedef struct fg__vector_choice {
   fg__dataset data;
@@ -17,8 +17,7 @@ typedef struct fg__vector_choice {
 /* Opens the source and chooses the vector, or takes what is kept of an earlier call. *out
  * is NULL after a failure. */
 fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
-                                  const fg__dataset_format *format,
-                                  const fg__source *source,
+                                  const fg__format *format, const fg__source *source,
                                   const fg_read_options *options);
 
 /* Closes what is not kept. Returns the status, that of the call, or that of a further

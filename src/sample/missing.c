@@ -21,6 +21,32 @@ static const float LARGEST_DIRECTION = 360.0F;
  * number is this many times as large as they are. */
 static const double CUSTOMARY_GAP = 0.2, LEAST_RATIO = 10.0;
 
+fg__raw_samples fg__raw_samples_of(const fg__dataset *data, const fg__pair *pair,
+                                   int components, float *const *component, size_t count)
+{
+  fg__raw_samples raw = {.path = data->file[0].path,
+                         .components = components,
+                         .count = count,
+                         .is_polar = pair->polar.sense != 0};
+  for (int k = 0; k < components; ++k) {
+    raw.name[k] = pair->component[k]->plain_name;
+    raw.component[k] = component[k];
+  }
+  return raw;
+}
+
+fg_status fg__check_any(const fg__variable *v, const fg__missing_counts *missing,
+                        size_t samples)
+{
+  if (missing->fill + missing->range + missing->not_a_number < samples)
+    return FG_STATUS_OK;
+  return fg__fail(v->owner->context, FG_STATUS_FILE_FORMAT,
+                  "%s: all %zu samples of '%s' are missing (%zu fill values, %zu outside "
+                  "the valid range, %zu not a number)",
+                  v->path, samples, v->name, missing->fill, missing->range,
+                  missing->not_a_number);
+}
+
 fg_status fg__missing_read(fg__missing_numbers *out, fg_context *context,
                            const char *missing)
 {

@@ -2,7 +2,7 @@
 #ifndef FG__MISSING_VALUES_H
 #define FG__MISSING_VALUES_H
 
-#include "dataset/dataset.h"
+#include "interpret/interpret.h"
 
 /* Samples as a file has them, before they are interpolated or turned. */
 typedef struct fg__raw_samples {
@@ -14,6 +14,14 @@ typedef struct fg__raw_samples {
   const unsigned char *valid; /* 0: masked; NULL: none is */
   bool is_polar;              /* the first is a length, the second its direction */
 } fg__raw_samples;
+
+/* Samples of a vector that are there whole, or in part. */
+fg__raw_samples fg__raw_samples_of(const fg__dataset *data, const fg__pair *pair,
+                                   int components, float *const *component, size_t count);
+
+/* Refuses a variable of which all samples are missing. FILE_FORMAT. */
+fg_status fg__check_any(const fg__variable *v, const fg__missing_counts *missing,
+                        size_t samples);
 
 /* Reads fg_read_options.missing into a dataset: numbers with commas between, or "none";
  * NULL leaves it as it is. ARGUMENT. */

@@ -200,15 +200,10 @@ static fg_status read_raw(fg__velocity_samples *out, const source *from)
 
 static fg__raw_samples raw_of(const fg__velocity_samples *samples, const source *from)
 {
-  fg__raw_samples raw = {.path = from->data->file[0].path,
-                         .components = from->grid->dimension,
-                         .count = row_size(from->grid) * (size_t)from->rows->held,
-                         .valid = samples->valid,
-                         .is_polar = from->pair->polar.sense != 0};
-  for (int k = 0; k < raw.components; ++k) {
-    raw.name[k] = from->pair->component[k]->plain_name;
-    raw.component[k] = samples->velocity[k];
-  }
+  fg__raw_samples raw =
+      fg__raw_samples_of(from->data, from->pair, from->grid->dimension, samples->velocity,
+                         row_size(from->grid) * (size_t)from->rows->held);
+  raw.valid = samples->valid;
   return raw;
 }
 

@@ -18,14 +18,13 @@ fg_status fg__velocity_samples_read(fg__velocity_samples *out, const fg__dataset
                                     const fg__pair *pair, const fg__grid *grid,
                                     const fg__rows *rows, size_t time, size_t level,
                                     const char *mask);
-/* The share of samples that are missing at the first time and level. */
+
+/* The share of samples that lack a component, at the first time and level that have
+ * both. Statuses of fg__velocity_samples_read. */
 fg_status fg__velocity_missing(double *share, const fg__dataset *data,
                                const fg__pair *pair, const fg__grid *grid);
 
 void fg__velocity_samples_clear(fg__velocity_samples *samples);
-
-/* The share of samples that lack a component, at the first time and level that have
- * both. Statuses of fg__velocity_samples_read. */
 
 /* Rotates the components of some rows to the directions of the projection's plane. */
 fg_status fg__projection_turn(float *const velocity[2], const fg__dataset *data,

@@ -1,6 +1,7 @@
 #include "score/samples.h"
 
 #include "base/memory.h"
+#include "base/weighted.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -110,17 +111,11 @@ static void add_icon(fg__samples *samples, const fg__domain_raster *raster,
   }
 }
 
-static int compare(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* The greatest length to which lines must be cut so that all together have at most `all`:
  * the shortest keep theirs, the others share the rest alike. */
 static double common_length(double *sorted, int count, double all)
 {
-  qsort(sorted, (size_t)count, sizeof *sorted, compare);
+  qsort(sorted, (size_t)count, sizeof *sorted, fg__by_size);
   double used = 0.0;
   for (int n = 0; n < count; ++n) {
     const double share = (all - used) / (count - n);

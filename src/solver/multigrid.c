@@ -60,6 +60,31 @@ void fg__multigrid_weigh_gradient(fg__multigrid *multigrid, double weight)
   finest_of(multigrid)->gradient_weight = weight;
 }
 
+fg__energies fg__multigrid_no_energies(float *zeros)
+{
+  fg__energies none = {.level = {{.center = zeros}}};
+  for (int k = 0; k < FG__MOST_COUPLINGS; ++k)
+    none.level[0].to[k] = zeros;
+  for (int n = 0; n < FG__MOST_LEVELS; ++n)
+    none.distributed[n] = none.level[n] = none.level[0];
+  return none;
+}
+
+static void exchange_energy(fg__level *level, fg__stencil *other)
+{
+  fg__stencil own = level->energy;
+  level->energy = *other;
+  *other = own;
+}
+
+void fg__multigrid_exchange_energies(fg__multigrid *multigrid, fg__energies *other)
+{
+  for (int n = 0; n < multigrid->distributed_count; ++n)
+    exchange_energy(&multigrid->distributed[n].block, &other->distributed[n]);
+  for (int n = 0; n < multigrid->level_count; ++n)
+    exchange_energy(&multigrid->level[n], &other->level[n]);
+}
+
 /* Whether replicated level n is the finest, with its double well. */
 static bool nonlinear(const fg__multigrid *multigrid, int n)
 {

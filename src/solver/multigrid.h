@@ -70,6 +70,17 @@ typedef struct fg__linear_terms {
 /* Makes the finest level linear too; NULL: nonlinear again. */
 void fg__multigrid_linearise(fg__multigrid *multigrid, const fg__linear_terms *instead);
 
+/* K of every level. */
+typedef struct fg__energies {
+  fg__stencil distributed[FG__MOST_LEVELS], level[FG__MOST_LEVELS];
+} fg__energies;
+
+/* Energies that are 0, of an array of zeros of the finest level's shape. */
+fg__energies fg__multigrid_no_energies(float *zeros);
+
+/* Gives the levels other energies, and takes theirs. */
+void fg__multigrid_exchange_energies(fg__multigrid *multigrid, fg__energies *other);
+
 /* Copies an array of the finest level, by all threads. */
 void fg__multigrid_copy(const fg__multigrid *multigrid, const float *from, float *to,
                         const fg__thread *thread);

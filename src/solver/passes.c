@@ -132,14 +132,10 @@ static void explicit_part(pass *p, const fg__level *level, const fg__thread *thr
 }
 
 void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
-                            const float *w, double tau)
+                            const float *w, double tau, float *p)
 {
-  pass p = {.multigrid = multigrid,
-            .from = u,
-            .a = w,
-            .number = tau,
-            .to = fg__multigrid_p(multigrid)};
-  run_on_finest(&p, explicit_part);
+  pass whole = {.multigrid = multigrid, .from = u, .a = w, .number = tau, .to = p};
+  run_on_finest(&whole, explicit_part);
 }
 
 static void subtract_potential_derivative(pass *p, const fg__level *level,

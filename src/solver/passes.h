@@ -13,9 +13,9 @@ void fg__pass_solve(const fg__multigrid *multigrid, double tau, int cycles,
 /* w := Psi'(u) + K u; returns the energy, its chemical part and the sum of u. */
 fg__sums fg__pass_evaluate(const fg__multigrid *multigrid, const float *u, float *w);
 
-/* p of the finest level := u - tau L w. */
+/* p := u - tau L w, without ghosts. */
 void fg__pass_explicit_part(const fg__multigrid *multigrid, const float *u,
-                            const float *w, double tau);
+                            const float *w, double tau, float *p);
 
 /* w := w - Psi'(u). */
 void fg__pass_subtract_potential_derivative(const fg__multigrid *multigrid,

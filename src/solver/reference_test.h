@@ -247,7 +247,7 @@ static inline int terms_of(const problem *p, bool laplacian, term terms[6])
 static inline void apply_stiffness(const problem *p, bool laplacian, const double *u,
                                    double *out)
 {
-  term terms[6];
+  term terms[6] = {{.value = NULL}};
   const int term_count = terms_of(p, laplacian, terms);
   memset(out, 0, p->nodes * sizeof *out);
   for (int k = 0; k < p->count[2]; ++k)

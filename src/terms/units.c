@@ -212,17 +212,6 @@ double fg__unit_factor(const char *from, const char *to)
                                                                : 0.0;
 }
 
-bool fg__units_differ(const char *a, const char *b)
-{
-  fg__unit one, other;
-  fg__unit_read(&one, a);
-  fg__unit_read(&other, b);
-  const bool known =
-      one.quantity != FG__QUANTITY_UNKNOWN && other.quantity != FG__QUANTITY_UNKNOWN;
-  return known && (one.quantity != other.quantity ||
-                   fabs(one.factor - other.factor) > 1e-9 * fabs(one.factor));
-}
-
 bool fg__is_unit_in_name(const char *word)
 {
   fg__unit unit;

@@ -48,10 +48,6 @@ bool fg__units_seconds(const char *text, double *out);
  * to "d"; from no unit 1. 0: they measure different things, or one is not known. */
 double fg__unit_factor(const char *from, const char *to);
 
-/* Whether two units are known and not equal: "m/s" and "cm/s" are no units of one
- * vector. */
-bool fg__units_differ(const char *a, const char *b);
-
 /* The units that a name implies, "kn" of METAR's sknt; "": none. */
 const char *fg__units_of_name(const char *name);
 

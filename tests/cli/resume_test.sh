@@ -71,6 +71,7 @@ refused 'without --noise; this command goes with --noise 0.05' --noise 0.05
 refused 'without --coverage; this command goes with --coverage 0.25' --coverage 0.25
 refused 'without --energy; this command goes with --energy isotropic' --energy isotropic
 refused 'without --scheme; this command goes with --scheme theta' --scheme theta
+refused 'without --residual; this command goes with --residual 0.01' --residual 1e-2
 refused 'without --palette' --palette '#102030'
 refused 'without --tint; this command goes with --tint$' --tint
 refused 'without --save-field' --save-field

@@ -148,9 +148,9 @@ expect_json out9n/run.json '.parameters.noise == 0.05 and .energy_monotone'
 done_with "weak noise"
 
 # no direction counts where all is slower by far
-try run synth:vortex3 --formats svg -o out9s --nodes 97 --isotropic-below 1e9 --clusters 12 --quiet
+try run synth:vortex3 --formats svg -o out9split --nodes 97 --isotropic-below 1e9 --clusters 12 --quiet
 expect_code 0
-expect_json out9s/run.json '.parameters.isotropic_below == 1e9 and .parameters.anisotropy == 0.15'
+expect_json out9split/run.json '.parameters.isotropic_below == 1e9 and .parameters.anisotropy == 0.15'
 expect_json out1/run.json '.parameters.isotropic_below == 0'
 try run synth:vortex3 --formats svg -o out9d --nodes 97 --clusters 12 --quiet
 cmp -s out9s/scale-00.geojson out9d/scale-00.geojson && fault "the speed does not count"
@@ -261,7 +261,15 @@ expect_error ', theta scheme, '
 expect_json out9t/run.json '.parameters.scheme == "theta" and .energy_monotone == true'
 expect_json out1/run.json '.parameters.scheme == "bdf2"'
 [ "$(awk -F, 'NR > 1 && $10 % 9' out9t/evolution.csv)" = "" ] || fault "cycles are not those of three substeps"
+expect_json out9t/run.json '.parameters | (.theta - 0.2928932 | fabs) < 1e-6 and (.alpha - 0.5857864 | fabs) < 1e-6'
+expect_json out1/run.json '(.parameters | has("theta") or has("alpha") or has("residual")) or has("largest_residual") | not'
 done_with "the theta scheme"
+
+try run synth:vortex3 --formats svg -o out9residual --nodes 65 --scheme theta --theta 0.4 --alpha 1 --residual 1e-2 --clusters 10 --max-steps 60
+expect_code 0
+expect_json out9residual/run.json '.parameters.theta == 0.4 and .parameters.alpha == 1 and .parameters.residual == 0.01'
+expect_json out9residual/run.json '.largest_residual > 1e-4 and .largest_residual <= 0.01 and .energy_monotone'
+done_with "another splitting, solved to a residual"
 
 try run synth:vortex3 -o out10 "${one[@]}" --extent cluster
 expect_code 0

@@ -34,6 +34,12 @@ wrong 'unknown option -z' run a -o x -z
 done_with "unknown short option"
 wrong 'scheme thta: not known; the choice is: bdf2, euler, theta' run a -o x --scheme thta
 done_with "a word that is no choice"
+wrong '--theta 0.5: a number in .0, 0.5. is needed' run a -o x --scheme theta --theta 0.5
+wrong '--alpha 0.5: a number in .0.5, 1. is needed' run a -o x --scheme theta --alpha 0.5
+wrong '--residual 1: a number in .0, 1. is needed' run a -o x --residual 1
+wrong '--theta 0.2: only with --scheme theta' run a -o x --theta 0.2
+wrong '--alpha 1: only with --scheme theta' run a -o x --scheme euler --alpha 1
+done_with "a splitting or a residual out of range, or of another scheme"
 wrong '--title: \{tiem\} stands for nothing; known: \{title\}, \{time\}, \{level\}, \{names\}, \{arrows\}$' run a -o x --title 'At {tiem}, {time}'
 wrong '--subtitle: \{units\} stands for nothing' texture a -o x.png --subtitle '{units}'
 wrong '--label: \{unit\} stands for nothing; known: \{units\}$' rival a -o x.geojson --label '{unit}'

@@ -13,7 +13,8 @@ static void describe(const fg__format *format, fg_context *context,
   fg_inventory *inventory = NULL;
   if (fg__inventory_create(&inventory, context, format->name))
     return;
-  const fg_status status = format->inventory(inventory, context, source, NULL);
+  const fg_status status =
+      fg__dataset_inventory(inventory, context, format, source, NULL);
   assert(status == FG_STATUS_OK || fg_context_message(context)[0]);
   fg_inventory_destroy(inventory);
   fg_context_clear(context);
@@ -24,7 +25,8 @@ static bool read_part(const fg__format *format, fg_context *context,
                       fg__slab_index slab)
 {
   fg_field *field = NULL;
-  const fg_status status = format->read(&field, context, source, options, slab);
+  const fg_status status =
+      fg__dataset_read(&field, context, format, source, options, slab);
   assert((status == FG_STATUS_OK) == (field != NULL));
   assert(status == FG_STATUS_OK || fg_context_message(context)[0]);
   if (field) {

@@ -14,7 +14,8 @@ static bool try_sphere(const uint8_t *bytes, size_t size)
   fg_field *field = NULL;
   if (!fg__format_grib.is_mine(bytes, size) || fg_context_create(&context))
     return false;
-  fg_status status = fg__format_grib.sphere(&sphere, context, &source, &options);
+  fg_status status =
+      fg__dataset_sphere(&sphere, context, &fg__format_grib, &source, &options);
   assert(status == FG_STATUS_OK || (!sphere && fg_context_message(context)[0]));
   if (sphere)
     status = fg__globe_field(&field, context, sphere, (fg__slab_index){0, 1});

@@ -13,7 +13,7 @@
 
 #include "dataset/dataset.h"
 #include "fields.h"
-#include "read/dataset.h"
+#include "read/format.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, 
 }
 
 static const fg__decoder DECODER = {
-    .fetch = fetch, .fetch_texts = fetch_texts, .close = free};
+    .fetch = fetch, .fetch_texts = fetch_texts, .state_bytes = sizeof(script)};
 
 static fg_status add_dimension(fg__dataset *data, const char *line)
 {
@@ -148,19 +148,16 @@ static fg_status add_line(fg__dataset *data, script *s, const char *line)
 }
 
 static fg_status open_script(fg__dataset *data, fg_context *context,
-                             const fg__source *source)
+                             const fg__source *source, const fg_read_options *options)
 {
-  script *s = calloc(1, sizeof *s);
+  (void)options;
   fg_status status =
-      s ? fg__dataset_begin(data, context, source->path, source->size, &DECODER)
-        : FG_STATUS_MEMORY;
-  if (status != FG_STATUS_OK) {
-    free(s);
+      fg__dataset_begin(data, context, source->path, source->size, &DECODER);
+  if (status == FG_STATUS_OK && !fg__dataset_add_group(data))
+    status = FG_STATUS_MEMORY;
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  data->file[data->files - 1].state = s;
-  if (!fg__dataset_add_group(data))
-    return FG_STATUS_MEMORY;
+  script *s = data->file[data->files - 1].state;
   const char *text = (const char *)source->bytes;
   for (size_t at = 0, next; at < source->size && status == FG_STATUS_OK; at = next + 1) {
     char line[LINE];
@@ -178,17 +175,8 @@ static bool is_script(const unsigned char *bytes, size_t size)
   return size > 1 && bytes[1] == ' ';
 }
 
-static const fg__dataset_format FORMAT = {
-    .name = "script", .is_mine = is_script, .open = open_script};
-
-FG__DATASET_HOOKS(FORMAT)
-
-static const fg__format fg__format_script = {.name = "script",
-                                             .files = "scripts",
-                                             .is_mine = is_script,
-                                             .inventory = inventory_hook,
-                                             .read = read_hook,
-                                             .sphere = sphere_hook};
+static const fg__format fg__format_script = {
+    .name = "script", .files = "scripts", .is_mine = is_script, .open = open_script};
 
 /* The same with options: what is chosen by the size, so that each corpus has all. */
 static void try_options(const uint8_t *bytes, size_t size)
@@ -205,7 +193,8 @@ static void try_options(const uint8_t *bytes, size_t size)
   const fg__source source = {.path = "fuzz.script", .bytes = bytes, .size = size};
   const fg_read_options *chosen = &options[size % (sizeof options / sizeof *options)];
   read_part(&fg__format_script, context, &source, chosen, (fg__slab_index){0, 1});
-  if (sphere_hook(&sphere, context, &source, chosen) == FG_STATUS_OK)
+  if (fg__dataset_sphere(&sphere, context, &fg__format_script, &source, chosen) ==
+      FG_STATUS_OK)
     fg__sphere_destroy(sphere);
   fg_context_destroy(context);
 }

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/names.h"
+#include "base/weighted.h"
 #include "file/number_text.h"
 
 #include <limits.h>
@@ -123,12 +124,6 @@ fg_status fg__vtk_names_of_blocks(fg__vtk_names *out, fg__vtk *vtk, const xmlNod
   return list_blocks(out, vtk, blocks, "", 0);
 }
 
-static int by_number(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Moves an entry to the end of those kept so far, or drops it. */
 static void keep_or_drop(fg__vtk_names *list, size_t *kept, size_t i, bool kept_too)
 {
@@ -149,7 +144,7 @@ fg_status fg__vtk_names_choose_time(fg__dataset *data, fg__vtk_names *list,
     return fg__fail_memory(data->context, "times", list->count * sizeof *time);
   for (size_t i = 0; i < list->count; ++i)
     time[i] = list->entry[i].time;
-  qsort(time, list->count, sizeof *time, by_number);
+  qsort(time, list->count, sizeof *time, fg__by_size);
   size_t times = 0, kept = 0;
   for (size_t i = 0; i < list->count; ++i)
     if (times == 0 || time[i] > time[times - 1])

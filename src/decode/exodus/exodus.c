@@ -10,31 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum {
-  MOST_VARIABLES = 500,
-  MARK_WITHIN = 1 << 18, /* bytes in which the dimensions' names stand */
-  MOST_TIMES_LARGER = 4096
-};
-
-static bool has_text(const unsigned char *bytes, size_t size, const char *text)
-{
-  const size_t length = strlen(text);
-  for (const unsigned char *at = bytes, *end = bytes + size;
-       (at = memchr(at, text[0], (size_t)(end - at))) != NULL; ++at) {
-    if ((size_t)(end - at) < length)
-      return false;
-    if (memcmp(at, text, length) == 0)
-      return true;
-  }
-  return false;
-}
-
-bool fg__is_exodus(const unsigned char *bytes, size_t size)
-{
-  const size_t within = size < MARK_WITHIN ? size : MARK_WITHIN;
-  return fg__nc_kind_of(bytes, size) != FG__NC_NONE &&
-         has_text(bytes, within, "num_el_blk") && has_text(bytes, within, "num_nodes");
-}
+enum { MOST_VARIABLES = 500, MOST_TIMES_LARGER = 4096 };
 
 size_t fg__exodus_length(const fg__exodus *e, const char *name)
 {
@@ -211,10 +187,10 @@ static void close_file(void *state)
   fg__exodus *e = state;
   free(e->block);
   fg__dataset_close(&e->file);
-  free(e);
 }
 
-static const fg__decoder DECODER = {.fetch = fetch, .close = close_file};
+static const fg__decoder DECODER = {
+    .fetch = fetch, .state_bytes = sizeof(fg__exodus), .close = close_file};
 
 static bool is_velocity(const char *name)
 {
@@ -266,12 +242,9 @@ fg_status fg__exodus_open(fg__dataset *data, fg_context *context,
       fg__dataset_begin(data, context, source->path, source->size, &DECODER);
   if (status != FG_STATUS_OK)
     return status;
-  fg__exodus *e = data->file[data->files - 1].state = fg__allocate(1, sizeof *e);
-  if (!e)
-    return fg__fail_memory(context, "an Exodus file", sizeof *e);
-  *e = (fg__exodus){.block = NULL};
+  fg__exodus *e = data->file[data->files - 1].state;
   data->space.is_there = data->has_blocks = true;
-  status = fg__nc_open(&e->file, context, source);
+  status = fg__nc_open(&e->file, context, source, NULL);
   if (status == FG_STATUS_OK && !fg__dataset_add_group(data))
     status = FG_STATUS_MEMORY;
   if (status == FG_STATUS_OK)

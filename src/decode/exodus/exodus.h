@@ -5,7 +5,6 @@
 #define FG__EXODUS_H
 
 #include "decode/netcdf/netcdf.h"
-#include "flowgrain/field.h"
 
 enum { FG__EXODUS_NODES = 27, FG__EXODUS_NAME = 256 };
 
@@ -37,14 +36,6 @@ typedef struct fg__exodus {
   fg__exodus_block *block; /* those that are chosen */
   size_t blocks, cells;    /* of these */
 } fg__exodus;
-
-bool fg__is_exodus(const unsigned char *bytes, size_t size);
-
-/* Opens a file and adds what it holds of the time and of the block that the options name;
- * the dataset has to be closed also after a failure. FILE_FORMAT, UNSUPPORTED, ARGUMENT,
- * MEMORY. */
-fg_status fg__exodus_open(fg__dataset *data, fg_context *context,
-                          const fg__source *source, const fg_read_options *options);
 
 /* Length of a dimension; 0 when it is not there. */
 size_t fg__exodus_length(const fg__exodus *e, const char *name);

@@ -158,11 +158,12 @@ static void close_file(void *state)
   free(file->place);
   free(file->first);
   free(file->value);
-  free(file);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fetch, .close = close_file, .has = has_field};
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .state_bytes = sizeof(fg__grib_file),
+                                    .close = close_file,
+                                    .has = has_field};
 
 static fg_status read_file(fg__dataset *data, fg__grib_file *file)
 {
@@ -180,16 +181,15 @@ static fg_status read_file(fg__dataset *data, fg__grib_file *file)
 }
 
 fg_status fg__grib_open(fg__dataset *dataset, fg_context *context,
-                        const fg__source *source)
+                        const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   const bool further = dataset->files > 0;
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  fg__grib_file *file = status == FG_STATUS_OK ? fg__allocate(1, sizeof *file) : NULL;
-  if (!file)
-    return status == FG_STATUS_OK ? fg__fail_memory(context, "a file", sizeof *file)
-                                  : status;
-  dataset->file[dataset->files - 1].state = file;
+  if (status != FG_STATUS_OK)
+    return status;
+  fg__grib_file *file = dataset->file[dataset->files - 1].state;
   *file = (fg__grib_file){.context = context,
                           .path = dataset->file[dataset->files - 1].path,
                           .source = *source,

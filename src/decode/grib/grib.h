@@ -4,19 +4,12 @@
 #ifndef FG__GRIB_H
 #define FG__GRIB_H
 
-#include "dataset/dataset.h"
-#include "decode/signature.h"
-#include "decode/source.h"
+#include "decode/openers.h"
 
 #include <eccodes.h>
 #include <stdint.h>
 
 enum { FG__GRIB_WORD = 64, FG__GRIB_SECTIONS = 8, FG__GRIB_NO_MEMBER = -1 };
-
-/* Opens a source and adds what it holds; may be called again to add a file. The dataset
- * has to be closed, also after a failure. FILE_FORMAT, UNSUPPORTED, MEMORY. */
-fg_status fg__grib_open(fg__dataset *dataset, fg_context *context,
-                        const fg__source *source);
 
 /* scan.c: the fields of a file, found without ecCodes. */
 

@@ -33,7 +33,6 @@ fg_status fg__hdf_begin(fg__hdf **out, fg__vtk *vtk)
   vtk->close_held = close_all;
   if (!*out)
     return fg__fail_memory(vtk->context, "files of arrays", sizeof **out);
-  **out = (fg__hdf){.count = 0};
   return FG_STATUS_OK;
 }
 
@@ -44,10 +43,8 @@ static fg__hdf_file *add_file(fg__hdf *hdf)
     return NULL;
   hdf->file = grown;
   fg__hdf_file *file = fg__allocate(1, sizeof *file);
-  if (file) {
-    *file = (fg__hdf_file){.path = NULL};
+  if (file)
     hdf->file[hdf->count++] = file;
-  }
   return file;
 }
 
@@ -81,7 +78,7 @@ fg_status fg__hdf_open(fg__hdf_file **out, fg__vtk *vtk, const char *name,
   hdf->room += MOST_TIMES_LARGER * (double)opened->size;
   if (status == FG_STATUS_OK &&
       fg__nc_kind_of(opened->bytes, opened->size) == FG__NC_HDF5)
-    status = fg__nc_open(&file->data, vtk->context, opened);
+    status = fg__nc_open(&file->data, vtk->context, opened, NULL);
   return status;
 }
 

@@ -45,12 +45,4 @@ fg_status fg__hdf_read(double *out, const fg__variable *variable, size_t first,
 fg_status fg__hdf_add_array(fg__vtk *vtk, const fg__variable *variable, const char *name,
                             fg__vtk_place place, int components, size_t first);
 
-/* Open a file and add what it holds of the time and the block that options name; the
- * dataset has to be closed also after a failure. FILE_FORMAT, UNSUPPORTED, ARGUMENT,
- * FILE_ACCESS, MEMORY. */
-fg_status fg__vtkhdf_open(fg__dataset *data, fg_context *context,
-                          const fg__source *source, const fg_read_options *options);
-fg_status fg__xdmf_open(fg__dataset *data, fg_context *context, const fg__source *source,
-                        const fg_read_options *options);
-
 #endif

@@ -182,7 +182,8 @@ static fg_status count_item(size_t *out, fg__vtk *vtk, const xmlNode *item, int 
   return status;
 }
 
-fg_status fg__xdmf_count(size_t *out, fg__vtk *vtk, const xmlNode *item)
+/* Counts an item's numbers, of all that it consists of; those are there. */
+static fg_status count_numbers(size_t *out, fg__vtk *vtk, const xmlNode *item)
 {
   return count_item(out, vtk, item, 0);
 }
@@ -191,15 +192,9 @@ fg_status fg__xdmf_count(size_t *out, fg__vtk *vtk, const xmlNode *item)
 static fg_status read_array(double *out, const fg__vtk *vtk, fg__vtk_array *array,
                             size_t count)
 {
-  fg__vtk_values values;
   array->name = (char[]){"of a DataItem"};
   array->components = 1;
-  fg_status status = fg__vtk_values_create(&values, vtk, array, count);
-  for (size_t n = 0; n < count && status == FG_STATUS_OK; ++n)
-    out[n] = fg__vtk_value(&values, n);
-  if (status == FG_STATUS_OK)
-    fg__vtk_values_clear(&values);
-  return status;
+  return fg__vtk_read_numbers(out, vtk, array, count);
 }
 
 static fg_status read_markup(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
@@ -219,8 +214,6 @@ static fg_status read_markup(double *out, fg__vtk *vtk, const xmlNode *item, siz
 static fg_status read_bytes(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
 {
   char order[FG__XDMF_WORD], packed[FG__XDMF_WORD];
-  const uint16_t one = 1;
-  const bool little = *(const unsigned char *)&one == 1;
   const unsigned char *bytes;
   fg__vtk ordered = *vtk;
   fg__vtk_array array = {.type = type_of(vtk, item), .storage = FG__VTK_RAW};
@@ -231,7 +224,7 @@ static fg_status read_bytes(double *out, fg__vtk *vtk, const xmlNode *item, size
   const fg_status status = find_bytes(&bytes, vtk, item, count);
   if (status != FG_STATUS_OK)
     return status;
-  ordered.swap = strcasecmp(order, little ? "Big" : "Little") == 0;
+  ordered.swap = strcasecmp(order, fg__is_little_endian() ? "Big" : "Little") == 0;
   array.text = (const char *)bytes;
   array.text_size = count * fg__type_bytes(array.type);
   return read_array(out, &ordered, &array, count);
@@ -308,11 +301,9 @@ static fg_status read_box(double *out, fg__vtk *vtk, const selection *s,
   return FG_STATUS_OK;
 }
 
-static fg_status read_item(double *out, fg__vtk *vtk, const xmlNode *item, size_t count,
-                           int depth);
+static fg_status read_item(double *out, fg__vtk *vtk, const xmlNode *item, size_t count);
 
-static fg_status read_part(double *out, fg__vtk *vtk, const xmlNode *item, size_t count,
-                           int depth)
+static fg_status read_part(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
 {
   selection s = {.rank = 0};
   item_kind kind = IN_MARKUP;
@@ -326,7 +317,7 @@ static fg_status read_part(double *out, fg__vtk *vtk, const xmlNode *item, size_
   if (status == FG_STATUS_OK)
     status = find_kind(&kind, vtk, of);
   if (status == FG_STATUS_OK)
-    status = fg__xdmf_count(&all, vtk, of);
+    status = count_numbers(&all, vtk, of);
   if (status == FG_STATUS_OK)
     status = read_selection(&s, vtk, item, of, count);
   if (status == FG_STATUS_OK && kind == IN_HDF5)
@@ -335,7 +326,7 @@ static fg_status read_part(double *out, fg__vtk *vtk, const xmlNode *item, size_
     v = NULL;
   if (status == FG_STATUS_OK && !v) {
     whole = fg__allocate(all, sizeof *whole);
-    status = whole ? read_item(whole, vtk, of, all, depth + 1)
+    status = whole ? read_item(whole, vtk, of, all)
                    : fg__fail_memory(vtk->context, "an array", all * sizeof *whole);
   }
   if (status == FG_STATUS_OK)
@@ -345,8 +336,7 @@ static fg_status read_part(double *out, fg__vtk *vtk, const xmlNode *item, size_
 }
 
 /* JOIN($0, $1, ...): the numbers of each side by side. */
-static fg_status read_joined(double *out, fg__vtk *vtk, const xmlNode *item, size_t count,
-                             int depth)
+static fg_status read_joined(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
 {
   const xmlNode *of[MOST_JOINED + 1] = {NULL};
   char function[FG__XDMF_WORD], known[FG__XDMF_WORD] = "JOIN(";
@@ -373,12 +363,12 @@ static fg_status read_joined(double *out, fg__vtk *vtk, const xmlNode *item, siz
   if (!one)
     return fg__fail_memory(vtk->context, "an array", count * sizeof *one);
   for (size_t k = 0; k < joined && status == FG_STATUS_OK; ++k) {
-    status = fg__xdmf_count(&each, vtk, of[k]);
+    status = count_numbers(&each, vtk, of[k]);
     if (status == FG_STATUS_OK && each != count / joined)
       status = fail(vtk, of[k], FG_STATUS_FILE_FORMAT,
                     "of another length than its share in", function);
     if (status == FG_STATUS_OK)
-      status = read_item(one, vtk, of[k], each, depth + 1);
+      status = read_item(one, vtk, of[k], each);
     for (size_t n = 0; n < each && status == FG_STATUS_OK; ++n)
       out[n * joined + k] = one[n];
   }
@@ -386,14 +376,12 @@ static fg_status read_joined(double *out, fg__vtk *vtk, const xmlNode *item, siz
   return status;
 }
 
-static fg_status read_item(double *out, fg__vtk *vtk, const xmlNode *item, size_t count,
-                           int depth)
+/* Of an item that was counted, which is then not too deep. */
+static fg_status read_item(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
 {
   const fg__variable *v;
   item_kind kind = IN_MARKUP;
   fg_status status = find_kind(&kind, vtk, item);
-  if (status == FG_STATUS_OK && depth > MOST_DEPTH)
-    status = fail(vtk, item, FG_STATUS_UNSUPPORTED, "too deep in others:", "");
   if (status != FG_STATUS_OK)
     return status;
   switch (kind) {
@@ -403,17 +391,12 @@ static fg_status read_item(double *out, fg__vtk *vtk, const xmlNode *item, size_
   case AS_BYTES:
     return read_bytes(out, vtk, item, count);
   case PART:
-    return read_part(out, vtk, item, count, depth);
+    return read_part(out, vtk, item, count);
   case JOINED:
-    return read_joined(out, vtk, item, count, depth);
+    return read_joined(out, vtk, item, count);
   default:
     return read_markup(out, vtk, item, count);
   }
-}
-
-fg_status fg__xdmf_read(double *out, fg__vtk *vtk, const xmlNode *item, size_t count)
-{
-  return read_item(out, vtk, item, count, 0);
 }
 
 fg_status fg__xdmf_create(double **out, size_t *count, fg__vtk *vtk, const xmlNode *item)
@@ -424,7 +407,7 @@ fg_status fg__xdmf_create(double **out, size_t *count, fg__vtk *vtk, const xmlNo
   if (!item)
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                     "%s: a grid lacks a DataItem of its mesh", vtk->path);
-  fg_status status = fg__xdmf_count(count, vtk, item);
+  fg_status status = count_numbers(count, vtk, item);
   if (status == FG_STATUS_OK && (double)*count > hdf->room)
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
                       "%s: line %ld: %zu numbers are more than its files can hold",
@@ -433,7 +416,7 @@ fg_status fg__xdmf_create(double **out, size_t *count, fg__vtk *vtk, const xmlNo
     return status;
   hdf->room -= (double)*count;
   *out = fg__allocate(*count, sizeof **out);
-  status = *out ? fg__xdmf_read(*out, vtk, item, *count)
+  status = *out ? read_item(*out, vtk, item, *count)
                 : fg__fail_memory(vtk->context, "an array", *count * sizeof **out);
   if (status != FG_STATUS_OK) {
     free(*out);
@@ -447,7 +430,7 @@ static fg_status read_later(double *out, const fg__vtk *vtk, const fg__vtk_array
                             size_t first, size_t count)
 {
   (void)first; /* 0 */
-  return fg__xdmf_read(out, (fg__vtk *)(uintptr_t)vtk, array->item, count);
+  return read_item(out, (fg__vtk *)(uintptr_t)vtk, array->item, count);
 }
 
 fg_status fg__xdmf_add_array(fg__vtk *vtk, const xmlNode *item, const char *name,
@@ -459,7 +442,7 @@ fg_status fg__xdmf_add_array(fg__vtk *vtk, const xmlNode *item, const char *name
   fg__vtk_array *array;
   fg_status status = find_kind(&kind, vtk, item);
   if (status == FG_STATUS_OK)
-    status = fg__xdmf_count(&count, vtk, item);
+    status = count_numbers(&count, vtk, item);
   const fg__hdf *hdf = vtk->held;
   const size_t components = tuples > 0 ? count / tuples : 0;
   if (status == FG_STATUS_OK &&

@@ -120,8 +120,6 @@ static fg_status read_points(size_t *points, fg__vtk *vtk, const xmlNode *geomet
     if (status == FG_STATUS_OK && !out) {
       *points = apart ? count : count / width;
       out = fg__allocate(3 * *points, sizeof *out);
-      for (size_t n = 0; out && n < 3 * *points; ++n)
-        out[n] = 0.0;
       if (!out)
         status = fg__fail_memory(vtk->context, "points", 3 * *points * sizeof *out);
     }
@@ -182,9 +180,7 @@ static fg_status read_uneven(fg__vtk *vtk, const xmlNode *geometry, int dimensio
     if (k < dimension)
       status = create_item(&number, &count, vtk, geometry, k,
                            fg__vtk_length(vtk->extent, k, FG__VTK_POINTS));
-    else if ((number = fg__allocate(1, sizeof *number)))
-      *number = 0.0;
-    else
+    else if (!(number = fg__allocate(1, sizeof *number))) /* 0 */
       status = fg__fail_memory(vtk->context, "an axis", sizeof *number);
     if (status == FG_STATUS_OK)
       status = add_numbers(&at, vtk, names[k], number, count, 1);

@@ -209,17 +209,13 @@ static fg_status read_list(const vtkhdf *h, sums *s, int k, size_t part)
   if (cells > INT_MAX || corners > INT_MAX || piece->cells > INT_MAX)
     return fg__fail(h->vtk->context, FG_STATUS_UNSUPPORTED, "%s: more than %d cells",
                     h->vtk->path, INT_MAX);
-  *list =
-      (fg__vtk_list){.cells = corners > 0 ? cells : 0,
-                     .corners = connectivity,
-                     .types = types,
-                     .ends = ends,
-                     .corner_numbers = corners,
-                     .end_numbers = cells + 1,
-                     .type = LISTS[h->vtk->polygons][k].type,
-                     .faces = FG__VTK_NONE,
-                     .face_ends = FG__VTK_NONE,
-                     .apart = {FG__VTK_NONE, FG__VTK_NONE, FG__VTK_NONE, FG__VTK_NONE}};
+  list->cells = corners > 0 ? cells : 0;
+  list->corners = connectivity;
+  list->types = types;
+  list->ends = ends;
+  list->corner_numbers = corners;
+  list->end_numbers = cells + 1;
+  list->type = LISTS[h->vtk->polygons][k].type;
   piece->cells += cells;
   s->cell[k] += cells;
   s->corner[k] += corners;

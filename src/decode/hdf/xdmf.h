@@ -21,12 +21,8 @@ int fg__xdmf_lengths(size_t *out, int capacity, fg__vtk *vtk, const xmlNode *nod
 fg_status fg__xdmf_child(const xmlNode **out, fg__vtk *vtk, const xmlNode *parent,
                          const char *name, int number);
 
-/* items.c. How many numbers a DataItem has; and reads them. FILE_FORMAT, UNSUPPORTED,
- * FILE_ACCESS, MEMORY. */
-fg_status fg__xdmf_count(size_t *out, fg__vtk *vtk, const xmlNode *item);
-fg_status fg__xdmf_read(double *out, fg__vtk *vtk, const xmlNode *item, size_t count);
-
-/* The same into memory that is allocated, within fg__hdf.room; end with free. */
+/* items.c. Reads the numbers of a DataItem into memory that is allocated, within
+ * fg__hdf.room; end with free. FILE_FORMAT, UNSUPPORTED, FILE_ACCESS, MEMORY. */
 fg_status fg__xdmf_create(double **out, size_t *count, fg__vtk *vtk, const xmlNode *item);
 
 /* Adds an array of samples, which are read when they are needed. */

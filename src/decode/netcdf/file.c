@@ -363,46 +363,38 @@ static fg_status fetch_texts(const fg__variable *v, size_t first, size_t count, 
 static void close_state(void *state)
 {
   fg__nc_state *nc = state;
-  nc_close(nc->root);
+  if (nc->is_open)
+    nc_close(nc->root);
   fg__nc_storage_close(&nc->storage);
-  free(nc);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fetch, .fetch_texts = fetch_texts, .close = close_state};
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .fetch_texts = fetch_texts,
+                                    .state_bytes = sizeof(fg__nc_state),
+                                    .close = close_state};
 
-static fg_status list_file(fg__dataset *dataset, fg_context *context,
-                           const fg__source *source, fg__nc_state *state)
+fg_status fg__nc_open(fg__dataset *dataset, fg_context *context, const fg__source *source,
+                      const fg_read_options *options)
 {
+  (void)options;
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    close_state(state);
+  if (status == FG_STATUS_OK)
+    status = fg__nc_check_size(context, source);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[dataset->files - 1].state = state;
+  fg__nc_state *state = dataset->file[dataset->files - 1].state;
+  if (fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
+    status = fg__nc_check_objects(&state->storage, context, source);
+  if (status != FG_STATUS_OK)
+    return status;
+  const int error = open_source(source, &state->root);
+  state->is_open = !error;
+  if (error)
+    return error == NC_ENOMEM ? fail(context, source->path, "its header", error)
+                              : fg__fail(context, FG_STATUS_FILE_FORMAT,
+                                         "%s: not a NetCDF file, or a damaged one (%s)",
+                                         source->path, nc_strerror(error));
   const listing root = {dataset, source->path, state->root, "", NULL, NC_GLOBAL};
   return list_group(&root, 0);
-}
-
-fg_status fg__nc_open(fg__dataset *dataset, fg_context *context, const fg__source *source)
-{
-  fg_status status = fg__nc_check_size(context, source);
-  fg__nc_state *state = fg__allocate(1, sizeof *state);
-  if (!state)
-    return fg__fail_memory(context, "a file's state", sizeof *state);
-  if (status == FG_STATUS_OK &&
-      fg__nc_kind_of(source->bytes, source->size) == FG__NC_HDF5)
-    status = fg__nc_check_objects(&state->storage, context, source);
-  const int error = status == FG_STATUS_OK ? open_source(source, &state->root) : NC_NOERR;
-  if (error)
-    status = error == NC_ENOMEM ? fail(context, source->path, "its header", error)
-                                : fg__fail(context, FG_STATUS_FILE_FORMAT,
-                                           "%s: not a NetCDF file, or a damaged one (%s)",
-                                           source->path, nc_strerror(error));
-  if (status == FG_STATUS_OK)
-    return list_file(dataset, context, source, state);
-  fg__nc_storage_close(&state->storage);
-  free(state);
-  return status;
 }

@@ -2,16 +2,9 @@
 #ifndef FG__NETCDF_H
 #define FG__NETCDF_H
 
-#include "dataset/dataset.h"
-#include "decode/signature.h"
-#include "decode/source.h"
+#include "decode/openers.h"
 
 #include <stdint.h>
-
-/* Opens a source and adds what it holds; may be called again to add a file. The dataset
- * has to be closed, also after a failure. FILE_FORMAT, UNSUPPORTED, MEMORY. */
-fg_status fg__nc_open(fg__dataset *dataset, fg_context *context,
-                      const fg__source *source);
 
 /* Compares the size of a file with what its header promises. FILE_FORMAT. */
 fg_status fg__nc_check_size(fg_context *context, const fg__source *source);
@@ -48,6 +41,7 @@ void fg__nc_storage_close(fg__nc_storage *storage);
 
 /* A file that is open: the decoder's state. */
 typedef struct fg__nc_state {
+  bool is_open;
   int root; /* ncid */
   fg__nc_storage storage;
 } fg__nc_state;

@@ -104,19 +104,6 @@ static fg_status load(numpy_state *file, fg__npy_array *array)
   return status;
 }
 
-/* Moves the bytes of number `index` to *out, in this machine's order. */
-static void take_bytes(void *out, const fg__npy_array *array, size_t index)
-{
-  unsigned char *to = out;
-  const unsigned char *from = array->data + index * array->item;
-  if (!array->swapped) {
-    memcpy(to, from, array->item);
-    return;
-  }
-  for (size_t i = 0; i < array->item; ++i)
-    to[i] = from[array->item - 1 - i];
-}
-
 /* IEEE 754's binary16: a sign, 5 bits of exponent, 10 of the fraction. */
 static double half_value(uint16_t bits)
 {
@@ -129,41 +116,11 @@ static double half_value(uint16_t bits)
 
 static double value_at(const fg__npy_array *array, size_t index)
 {
-  union {
-    int8_t i1;
-    int16_t i2;
-    int32_t i4;
-    int64_t i8;
-    uint8_t u1;
-    uint16_t u2;
-    uint32_t u4;
-    uint64_t u8;
-    float f4;
-    double f8;
-  } n = {.u8 = 0};
-  take_bytes(&n, array, index);
-  switch (array->type) {
-  case FG__TYPE_INT8:
-    return n.i1;
-  case FG__TYPE_UINT8:
-    return n.u1;
-  case FG__TYPE_INT16:
-    return n.i2;
-  case FG__TYPE_UINT16:
-    return n.u2;
-  case FG__TYPE_INT32:
-    return (double)n.i4;
-  case FG__TYPE_UINT32:
-    return (double)n.u4;
-  case FG__TYPE_INT64:
-    return (double)n.i8;
-  case FG__TYPE_UINT64:
-    return (double)n.u8;
-  case FG__TYPE_FLOAT32:
-    return array->item == sizeof n.u2 ? half_value(n.u2) : (double)n.f4;
-  default:
-    return n.f8;
-  }
+  const unsigned char *at = array->data + index * array->item;
+  return array->type == FG__TYPE_FLOAT32 && array->item == sizeof(uint16_t)
+             ? half_value(
+                   (uint16_t)fg__number_of_bytes(FG__TYPE_UINT16, at, array->swapped))
+             : fg__number_of_bytes(array->type, at, array->swapped);
 }
 
 /* Numbers of a box of a view, the last axis fastest. */
@@ -194,11 +151,12 @@ static void close_state(void *state)
   numpy_state *file = state;
   for (size_t i = 0; i < file->count; ++i)
     free(file->array[i].owned);
-  free(file);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fetch, .close = close_state, .has_no_titles = true};
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .state_bytes = sizeof(numpy_state),
+                                    .close = close_state,
+                                    .has_no_titles = true};
 
 /* The dimension without a name of a length; several of one length in one array are told
  * apart by their number there. -1: no memory. */
@@ -327,21 +285,17 @@ static fg_status add_columns(fg__dataset *dataset, numpy_state *file)
 }
 
 fg_status fg__numpy_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source)
+                         const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   if (dataset->files > 0)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a second file cannot be used with NumPy's arrays", source->path);
-  numpy_state *file = fg__allocate(1, sizeof *file);
-  if (!file)
-    return fg__fail_memory(context, "a list of arrays", sizeof *file);
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    free(file);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[0].state = file;
+  numpy_state *file = dataset->file[0].state;
   file->context = context;
   file->path = dataset->file[0].path;
   status = open_arrays(file, source);

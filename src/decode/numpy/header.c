@@ -94,12 +94,6 @@ static bool take_shape(reader *r, size_t shape[FG__NPY_RANK], int *rank)
   return true;
 }
 
-static bool is_little(void)
-{
-  const unsigned one = 1;
-  return *(const unsigned char *)&one == 1;
-}
-
 /* "<f8": byte order, kind, bytes. */
 static bool find_type(fg__npy_array *out, const char *descr)
 {
@@ -117,7 +111,7 @@ static bool find_type(fg__npy_array *out, const char *descr)
   const char order = *descr;
   if (!order || !strchr("<>|=", order))
     return false;
-  out->swapped = order == (is_little() ? '>' : '<');
+  out->swapped = order == (fg__is_little_endian() ? '>' : '<');
   for (size_t i = 0; i < sizeof known / sizeof *known; ++i)
     if (strcmp(known[i].name, descr + 1) == 0) {
       out->type = known[i].type;

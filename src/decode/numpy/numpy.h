@@ -3,8 +3,7 @@
 #ifndef FG__NUMPY_H
 #define FG__NUMPY_H
 
-#include "dataset/dataset.h"
-#include "decode/source.h"
+#include "decode/openers.h"
 
 enum { FG__NPY_RANK = 4, FG__NPY_ARRAYS = 256, FG__NPY_NAME = 64 };
 
@@ -51,17 +50,5 @@ fg_status fg__zip_extract(unsigned char *out, size_t size, size_t *got,
  * FILE_FORMAT, UNSUPPORTED (types, ranks). */
 fg_status fg__npy_header(fg__npy_array *out, fg_context *context, const char *path,
                          const unsigned char *bytes, size_t size, size_t all);
-
-/* Whether bytes are those of an array, of an archive of arrays. */
-bool fg__is_npy(const unsigned char *bytes, size_t size);
-bool fg__is_npz(const unsigned char *bytes, size_t size);
-
-/* file.c. Adds the arrays to a dataset, along dimensions that have no names; those of
- * one length are one. An array whose first or last axis counts two components, or three
- * of a volume, and complex numbers are also there by components; the only one with four
- * or six columns by columns, called by their numbers from 1. FILE_FORMAT, UNSUPPORTED,
- * MEMORY. */
-fg_status fg__numpy_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source);
 
 #endif

@@ -120,9 +120,7 @@ static fg_status read_rows(table_state *s)
   fg_status status = FG_STATUS_OK;
   if (!fg__number_locale_begin(&locale))
     return fg__fail_memory(s->table.context, "a locale", 1);
-  while (status == FG_STATUS_OK && fg__table_next(&line, &cursor)) {
-    if (fg__table_is_blank(&line) || fg__table_is_comment(&line))
-      continue;
+  while (status == FG_STATUS_OK && fg__table_next_row(&line, &cursor)) {
     if (is_heading(&line))
       break;
     if (line.number % STOP_EVERY == 0)
@@ -182,11 +180,11 @@ static void close_state(void *state)
   free(s->cell);
   free(s->line);
   free(s->misfit);
-  free(s);
 }
 
 static const fg__decoder DECODER = {.fetch = fetch,
                                     .fetch_texts = fetch_texts,
+                                    .state_bytes = sizeof(table_state),
                                     .close = close_state,
                                     .has_no_titles = true,
                                     .records = "line",
@@ -229,23 +227,19 @@ static fg_status add_columns(fg__dataset *dataset, const table_state *s)
 }
 
 fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source)
+                         const fg__source *source, const fg_read_options *options)
 {
+  (void)options;
   if (dataset->files > 0)
     return fg__fail(context, FG_STATUS_UNSUPPORTED,
                     "%s: a second file cannot be used with a table", source->path);
   if (fg__has_zones(source))
     return fg__tecplot_open(dataset, context, source);
-  table_state *s = fg__allocate(1, sizeof *s);
-  if (!s)
-    return fg__fail_memory(context, "a table", sizeof *s);
   fg_status status =
       fg__dataset_begin(dataset, context, source->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    free(s);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[0].state = s;
+  table_state *s = dataset->file[0].state;
   s->table = (fg__table){.context = context, .path = dataset->file[0].path};
   status = fg__table_find_layout(&s->table, source);
   const size_t columns = (size_t)s->table.columns;

@@ -81,15 +81,14 @@ static int collect(fg__table_line line[LOOKED_AT], const fg__source *source)
     fg__table_next(&next, &cursor); /* the rest of one */
   } else {
     int all = 0;
-    while (fg__table_next(&next, &cursor))
-      all += !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+    while (fg__table_next_row(&next, &cursor))
+      ++all;
     cursor = fg__table_begin(source);
-    for (int skipped = 0; skipped < all / 2 && fg__table_next(&next, &cursor);)
-      skipped += !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+    for (int skipped = 0; skipped < all / 2; ++skipped)
+      fg__table_next_row(&next, &cursor);
   }
-  while (count < LOOKED_AT && fg__table_next(&next, &cursor))
-    if (!fg__table_is_blank(&next) && !fg__table_is_comment(&next) &&
-        next.size <= FG__TABLE_LINE)
+  while (count < LOOKED_AT && fg__table_next_row(&next, &cursor))
+    if (next.size <= FG__TABLE_LINE)
       line[count++] = next;
   return count;
 }
@@ -210,11 +209,9 @@ static bool fail_row(const fg__table *table, const fg__table_line *names,
 {
   fg__table_line row;
   int style = -1;
-  for (int rows = 0; style < 0 && rows < ROWS_TRIED && fg__table_next(&row, &cursor);)
-    if (!fg__table_is_blank(&row) && !fg__table_is_comment(&row)) {
-      style = style_of_row(names, &row, columns);
-      ++rows;
-    }
+  for (int rows = 0; style < 0 && rows < ROWS_TRIED && fg__table_next_row(&row, &cursor);
+       ++rows)
+    style = style_of_row(names, &row, columns);
   const int column = style < 0 ? -1 : find_no_number(&row, STYLES[style]);
   if (column < 0)
     return false;
@@ -234,9 +231,7 @@ static fg_status fail_no_table(const fg__table *table, const fg__source *source)
 {
   fg__table_cursor cursor = fg__table_begin(source);
   fg__table_line line = {"", 0, 0};
-  while (fg__table_next(&line, &cursor) &&
-         (fg__table_is_blank(&line) || fg__table_is_comment(&line)))
-    ;
+  fg__table_next_row(&line, &cursor);
   int best = 0, numbers = 0;
   for (int s = 0; s < STYLE_COUNT; ++s) {
     int found;
@@ -249,9 +244,7 @@ static fg_status fail_no_table(const fg__table *table, const fg__source *source)
   if (best >= LEAST && numbers == 0 && fail_row(table, &line, cursor, best))
     return FG_STATUS_FILE_FORMAT;
   fg__table_line next;
-  bool more = false;
-  while (!more && fg__table_next(&next, &cursor))
-    more = !fg__table_is_blank(&next) && !fg__table_is_comment(&next);
+  const bool more = fg__table_next_row(&next, &cursor);
   if (!more && best >= LEAST && numbers == 0)
     return fg__fail(table->context, FG_STATUS_FILE_FORMAT,
                     "%s: a table with the names of %d columns, and without rows",

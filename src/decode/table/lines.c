@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "decode/table/table.h"
+#include "terms/text.h"
 
 fg__table_cursor fg__table_begin(const fg__source *source)
 {
@@ -54,6 +55,15 @@ bool fg__table_is_comment(const fg__table_line *line)
 {
   const size_t at = skip_space(line, 0);
   return at < line->size && (line->text[at] == '#' || line->text[at] == '%');
+}
+
+bool fg__table_next_row(fg__table_line *line, fg__table_cursor *cursor)
+{
+  bool found;
+  do
+    found = fg__table_next(line, cursor);
+  while (found && (fg__table_is_blank(line) || fg__table_is_comment(line)));
+  return found;
 }
 
 static void trim(fg__table_field *field)
@@ -121,17 +131,9 @@ fg__table_field fg__table_field_at(const fg__table_line *line, fg__table_style s
 
 static bool is_missing(const fg__table_field *field)
 {
-  static const char *const words[] = {
-      "nan",  "na",        "n/a",      "null",    "none",     "-",      "--",
-      "---",  "nil",       "-nan",     "+nan",    "masked",   "m",      "mm",
-      "#n/a", "-nan(ind)", "nan(ind)", "1.#qnan", "-1.#qnan", "1.#ind", "-1.#ind"};
-  if (field->size == 0)
-    return true;
-  for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
-    if (field->size == strlen(words[i]) &&
-        strncasecmp(field->text, words[i], field->size) == 0)
-      return true;
-  return false;
+  return fg__is_one_of("|nan|na|n/a|null|none|-|--|---|nil|-nan|+nan|masked|m|mm|#n/a|"
+                       "-nan(ind)|nan(ind)|1.#qnan|-1.#qnan|1.#ind|-1.#ind",
+                       field->text, field->size);
 }
 
 static bool is_digit(char c)

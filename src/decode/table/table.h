@@ -4,8 +4,7 @@
 #ifndef FG__TABLE_H
 #define FG__TABLE_H
 
-#include "dataset/dataset.h"
-#include "decode/source.h"
+#include "decode/openers.h"
 
 enum {
   FG__TABLE_COLUMNS = 1024, /* more than any table of vectors has */
@@ -53,6 +52,9 @@ bool fg__table_is_blank(const fg__table_line *line);
 
 /* Whether the line begins with # or %, or blanks and one. */
 bool fg__table_is_comment(const fg__table_line *line);
+
+/* The next line that is neither. */
+bool fg__table_next_row(fg__table_line *line, fg__table_cursor *cursor);
 
 /* The field from *at on, which is moved behind it; false when there is none. */
 bool fg__table_split(fg__table_field *field, const fg__table_line *line, size_t *at,
@@ -107,14 +109,5 @@ int fg__tecplot_header(fg__table_column *out, int most, fg__table_cursor text);
  * variables), MEMORY. */
 fg_status fg__tecplot_open(fg__dataset *dataset, fg_context *context,
                            const fg__source *source);
-
-/* file.c. Whether bytes are text, but no markup. */
-bool fg__is_table(const unsigned char *bytes, size_t size);
-
-/* Adds the columns to a dataset, along one dimension, the rows'; those without a header
- * are called by their numbers from 1. FILE_FORMAT (no table, naming line and column),
- * UNSUPPORTED, MEMORY. */
-fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
-                         const fg__source *source);
 
 #endif

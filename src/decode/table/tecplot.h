@@ -10,7 +10,7 @@ enum { FG__TECPLOT_WORD = 256, FG__TECPLOT_CORNERS = 4, FG__TECPLOT_VARIABLES = 
 typedef struct fg__zone {
   size_t size[3], points, cells;
   int corners;                    /* of a cell; 0: an ordered zone */
-  bool block, has_sizes;          /* by variables */
+  bool block;                     /* by variables */
   double time;                    /* NaN: none */
   char centred[FG__TECPLOT_WORD]; /* lists of variables from 1, "" or "4-6" */
   int line;

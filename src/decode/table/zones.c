@@ -33,11 +33,12 @@ static void close_state(void *state)
   mesh_state *s = state;
   for (size_t i = 0; i < s->arrays; ++i)
     free(s->array[i]);
-  free(s);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fetch, .close = close_state, .has_no_titles = true};
+static const fg__decoder DECODER = {.fetch = fetch,
+                                    .state_bytes = sizeof(mesh_state),
+                                    .close = close_state,
+                                    .has_no_titles = true};
 
 /* Adds a variable along one dimension, or two; NULL: no memory. Its array is taken over.
  */
@@ -217,17 +218,11 @@ fg_status fg__zones_add(fg__dataset *dataset, const fg__source *source,
 {
   total t;
   fg_status status = find_total(&t, r);
-  mesh_state *s = fg__allocate(1, sizeof *s);
-  if (status == FG_STATUS_OK && !s)
-    status = fg__fail_memory(r->context, "zones", sizeof *s);
   if (status == FG_STATUS_OK)
     status = fg__dataset_begin(dataset, r->context, r->path, source->size, &DECODER);
-  if (status != FG_STATUS_OK) {
-    free(s);
+  if (status != FG_STATUS_OK)
     return status;
-  }
-  dataset->file[0].state = s;
-  return add_variables(dataset, s, r, &t)
+  return add_variables(dataset, dataset->file[0].state, r, &t)
              ? FG_STATUS_OK
              : fg__fail_memory(r->context, "zones", t.points * sizeof(double));
 }

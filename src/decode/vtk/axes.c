@@ -44,15 +44,11 @@ static fg_status read_axis(fg__vtk *vtk, int axis)
     const fg__vtk_piece *piece = &vtk->pieces[p];
     size_t length = fg__vtk_length(piece->extent, axis, FG__VTK_POINTS);
     const fg__vtk *file = fg__vtk_home(vtk, p);
-    fg__vtk_values values;
-    fg_status status = fg__vtk_values_create(
-        &values, file, &file->arrays[piece->coordinates + (size_t)axis], length);
+    double *first = out + ((int64_t)piece->extent[2 * axis] - vtk->extent[2 * axis]);
+    const fg_status status = fg__vtk_read_numbers(
+        first, file, &file->arrays[piece->coordinates + (size_t)axis], length);
     if (status != FG_STATUS_OK)
       return status;
-    double *first = out + ((int64_t)piece->extent[2 * axis] - vtk->extent[2 * axis]);
-    for (size_t i = 0; i < length; ++i)
-      first[i] = fg__vtk_value(&values, i);
-    fg__vtk_values_clear(&values);
   }
   for (size_t i = 0; i < whole; ++i)
     if (!isfinite(out[i]))

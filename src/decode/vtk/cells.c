@@ -78,7 +78,6 @@ static fg_status read_own(numbers *out, const fg__vtk *vtk, size_t array, size_t
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: a piece lacks an array",
                     vtk->path);
   size_t stored = 0;
-  fg__vtk_values values = {0};
   fg_status status = fg__vtk_values_check(vtk, &vtk->arrays[array], tuples, &stored);
   if (status == FG_STATUS_OK && stored > *room)
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
@@ -87,15 +86,9 @@ static fg_status read_own(numbers *out, const fg__vtk *vtk, size_t array, size_t
   if (status != FG_STATUS_OK)
     return status;
   *room -= stored;
-  status = fg__vtk_values_create(&values, vtk, &vtk->arrays[array], tuples);
-  if (status != FG_STATUS_OK)
-    return status;
-  out->count = values.count;
+  out->count = tuples * (size_t)vtk->arrays[array].components;
   out->of = fg__allocate(out->count, sizeof *out->of);
-  for (size_t i = 0; i < out->count && out->of; ++i)
-    out->of[i] = fg__vtk_value(&values, i);
-  fg__vtk_values_clear(&values);
-  return out->of ? FG_STATUS_OK
+  return out->of ? fg__vtk_read_numbers(out->of, vtk, &vtk->arrays[array], tuples)
                  : fg__fail_memory(vtk->context, "an array of the file", out->count * 8);
 }
 
@@ -388,13 +381,13 @@ static fg_status read_positions(fg__topology *cells, const fg__vtk *file,
   fg_status status = FG_STATUS_OK;
   if (!implied)
     status = read_own(&own, file, piece->positions, points, room);
-  if (status != FG_STATUS_OK)
-    return status;
   double *position =
-      realloc(cells->position, (cells->points + points) * 3 * sizeof *position);
+      status == FG_STATUS_OK
+          ? realloc(cells->position, (cells->points + points) * 3 * sizeof *position)
+          : NULL;
   if (position)
     cells->position = position;
-  else
+  else if (status == FG_STATUS_OK)
     status = fg__fail_memory(file->context, "points", points * 3 * sizeof *position);
   if (position && implied)
     imply_positions(position + 3 * cells->points, file, piece);

@@ -77,15 +77,13 @@ fg_status fg__vtk_bad_attribute(fg__vtk *vtk, const xmlNode *node, const char *n
 
 static fg_status read_file_attributes(fg__vtk *vtk, const xmlNode *root)
 {
-  const uint16_t one = 1;
-  const bool little_machine = *(const unsigned char *)&one == 1;
   char *order = fg__vtk_attribute(vtk, root, "byte_order");
   bool big = order && strcmp(order, "BigEndian") == 0;
   bool order_known = !order || big || strcmp(order, "LittleEndian") == 0;
   free(order);
   if (!order_known)
     return fg__vtk_bad_attribute(vtk, root, "byte_order");
-  vtk->swap = big == little_machine;
+  vtk->swap = big == fg__is_little_endian();
 
   char *header = fg__vtk_attribute(vtk, root, "header_type");
   vtk->header_bytes = header && strcmp(header, "UInt64") == 0 ? 8 : 4;

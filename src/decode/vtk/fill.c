@@ -11,7 +11,6 @@ enum { MOST_COLUMNS = 9 }; /* of an array: a tensor's */
 static void close_file(void *state)
 {
   fg__vtk_close(state);
-  free(state);
 }
 
 static fg_status check_files(const void *state, fg_status status)
@@ -19,8 +18,10 @@ static fg_status check_files(const void *state, fg_status status)
   return fg__vtk_check(state, status);
 }
 
-static const fg__decoder DECODER = {
-    .fetch = fg__vtk_fetch, .check = check_files, .close = close_file};
+static const fg__decoder DECODER = {.fetch = fg__vtk_fetch,
+                                    .check = check_files,
+                                    .state_bytes = sizeof(fg__vtk),
+                                    .close = close_file};
 
 fg_status fg__vtk_begin(fg__vtk **out, fg__dataset *data, fg_context *context,
                         const fg__source *source)
@@ -29,11 +30,8 @@ fg_status fg__vtk_begin(fg__vtk **out, fg__dataset *data, fg_context *context,
       fg__dataset_begin(data, context, source->path, source->size, &DECODER);
   if (status != FG_STATUS_OK)
     return status;
-  fg__vtk *vtk = *out = fg__allocate(1, sizeof *vtk);
-  if (!vtk)
-    return fg__fail_memory(context, "a VTK file", sizeof *vtk);
+  fg__vtk *vtk = *out = data->file[data->files - 1].state;
   *vtk = (fg__vtk){.context = context, .path = source->path, .file_size = source->size};
-  data->file[data->files - 1].state = vtk;
   return FG_STATUS_OK;
 }
 

@@ -419,8 +419,7 @@ static fg_status read_header(legacy_file *file)
 
 fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source)
 {
-  const uint16_t one = 1;
-  vtk->swap = *(const unsigned char *)&one == 1; /* files are big-endian */
+  vtk->swap = fg__is_little_endian(); /* files are big-endian */
   for (int k = 0; k < 3; ++k)
     vtk->spacing[k] = 1.0;
   legacy_file file = {.vtk = vtk,

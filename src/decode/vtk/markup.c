@@ -225,14 +225,9 @@ static fg_status collect(offset_list *out, fg__vtk *vtk, const xmlNode *root)
 
 static bool read_size(uint64_t *out, const fg__vtk *vtk, uint64_t at)
 {
-  const size_t bytes = vtk->header_bytes;
-  const uint16_t one = 1;
-  const bool little = (*(const unsigned char *)&one == 1) != vtk->swap;
-  if (at > vtk->appended_size || vtk->appended_size - at < bytes)
+  if (at > vtk->appended_size || vtk->appended_size - at < vtk->header_bytes)
     return false;
-  *out = 0;
-  for (size_t k = 0; k < bytes; ++k)
-    *out = *out << 8 | vtk->appended[at + (little ? bytes - 1 - k : k)];
+  *out = fg__vtk_size(vtk, vtk->appended + at);
   return true;
 }
 

@@ -40,13 +40,13 @@ static bool read_bytes(byte_stream *stream, unsigned char *out, size_t count)
   return true;
 }
 
-static void reverse(unsigned char *bytes, size_t size)
+uint64_t fg__vtk_size(const fg__vtk *vtk, const unsigned char *bytes)
 {
-  for (size_t i = 0; i < size / 2; ++i) {
-    unsigned char byte = bytes[i];
-    bytes[i] = bytes[size - 1 - i];
-    bytes[size - 1 - i] = byte;
-  }
+  const bool little = fg__is_little_endian() != vtk->swap;
+  uint64_t size = 0;
+  for (size_t k = 0; k < vtk->header_bytes; ++k)
+    size = size << 8 | bytes[little ? vtk->header_bytes - 1 - k : k];
+  return size;
 }
 
 static bool read_header(byte_stream *stream, const fg__vtk *vtk, uint64_t *number)
@@ -54,15 +54,7 @@ static bool read_header(byte_stream *stream, const fg__vtk *vtk, uint64_t *numbe
   unsigned char bytes[8];
   if (!read_bytes(stream, bytes, vtk->header_bytes))
     return false;
-  if (vtk->swap)
-    reverse(bytes, vtk->header_bytes);
-  if (vtk->header_bytes == 8) {
-    memcpy(number, bytes, 8);
-  } else {
-    uint32_t narrow;
-    memcpy(&narrow, bytes, 4);
-    *number = narrow;
-  }
+  *number = fg__vtk_size(vtk, bytes);
   return true;
 }
 
@@ -360,14 +352,6 @@ static fg_status inflate_blocks(unsigned char *out, const fg__vtk *vtk,
   return status;
 }
 
-static void swap_numbers(fg__vtk_values *out, const fg__vtk *vtk,
-                         const fg__vtk_array *array)
-{
-  size_t size = fg__type_bytes(array->type);
-  for (size_t i = 0; vtk->swap && size > 1 && i < out->count; ++i)
-    reverse(out->bytes + i * size, size);
-}
-
 static fg_status read_binary(fg__vtk_values *out, const fg__vtk *vtk,
                              const fg__vtk_array *array, size_t all)
 {
@@ -377,7 +361,6 @@ static fg_status read_binary(fg__vtk_values *out, const fg__vtk *vtk,
   block_layout layout;
   if (array->storage == FG__VTK_RAW) {
     memcpy(out->bytes, array->text + range.first, range.end - range.first);
-    swap_numbers(out, vtk, array);
     return FG_STATUS_OK;
   }
   const bool is_inline = array->storage == FG__VTK_INLINE;
@@ -395,7 +378,6 @@ static fg_status read_binary(fg__vtk_values *out, const fg__vtk *vtk,
     return status;
   if (is_inline && !fg__base64_ended(&layout.data.base64))
     return fail_array(vtk, array, "has more bytes than it promises");
-  swap_numbers(out, vtk, array);
   return FG_STATUS_OK;
 }
 
@@ -412,6 +394,7 @@ fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
   out->first = first * components;
   out->count = (end - first) * components;
   out->type = type_in_memory(array);
+  out->swapped = vtk->swap && array->storage != FG__VTK_HELD && !is_text(array);
   size_t size = fg__type_bytes(out->type);
   out->bytes = fg__allocate(out->count, size);
   if (!out->bytes)
@@ -437,28 +420,19 @@ void fg__vtk_values_clear(fg__vtk_values *values)
   *values = (fg__vtk_values){0};
 }
 
-#define RETURN_AS(of_type, type)                                                         \
-  case of_type: {                                                                        \
-    type number;                                                                         \
-    memcpy(&number, values->bytes + (index - values->first) * sizeof number,             \
-           sizeof number);                                                               \
-    return (double)number;                                                               \
-  }
-
 double fg__vtk_value(const fg__vtk_values *values, size_t index)
 {
-  switch (values->type) {
-    RETURN_AS(FG__TYPE_INT8, int8_t)
-    RETURN_AS(FG__TYPE_UINT8, uint8_t)
-    RETURN_AS(FG__TYPE_INT16, int16_t)
-    RETURN_AS(FG__TYPE_UINT16, uint16_t)
-    RETURN_AS(FG__TYPE_INT32, int32_t)
-    RETURN_AS(FG__TYPE_UINT32, uint32_t)
-    RETURN_AS(FG__TYPE_INT64, int64_t)
-    RETURN_AS(FG__TYPE_UINT64, uint64_t)
-    RETURN_AS(FG__TYPE_FLOAT32, float)
-    RETURN_AS(FG__TYPE_FLOAT64, double)
-  default:
-    return 0.0;
-  }
+  const size_t at = (index - values->first) * fg__type_bytes(values->type);
+  return fg__number_of_bytes(values->type, values->bytes + at, values->swapped);
+}
+
+fg_status fg__vtk_read_numbers(double *out, const fg__vtk *vtk,
+                               const fg__vtk_array *array, size_t tuples)
+{
+  fg__vtk_values values;
+  const fg_status status = fg__vtk_values_create(&values, vtk, array, tuples);
+  for (size_t i = 0; status == FG_STATUS_OK && i < values.count; ++i)
+    out[i] = fg__vtk_value(&values, i);
+  fg__vtk_values_clear(&values);
+  return status;
 }

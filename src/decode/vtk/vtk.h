@@ -5,10 +5,7 @@
 #ifndef FG__VTK_H
 #define FG__VTK_H
 
-#include "dataset/dataset.h"
-#include "decode/signature.h"
-#include "decode/source.h"
-#include "flowgrain/field.h"
+#include "decode/openers.h"
 
 typedef enum fg__vtk_place {
   FG__VTK_POINTS,
@@ -95,9 +92,10 @@ typedef enum fg__vtk_kind {
   FG__VTK_UNSTRUCTURED /* and polygons, and several grids together */
 } fg__vtk_kind;
 
-/* Numbers of one array in this machine's byte order, or some of them in a row. */
+/* Numbers of one array, or some of them in a row. */
 typedef struct fg__vtk_values {
   unsigned char *bytes;
+  bool swapped; /* their order is not this machine's */
   fg__type type;
   size_t first, count; /* of the array's numbers, tuples * components */
 } fg__vtk_values;
@@ -152,14 +150,6 @@ fg_status fg__vtk_fill(fg__dataset *data, fg__vtk *vtk);
 
 /* Takes a legacy file apart, into a state that is otherwise empty. */
 fg_status fg__vtk_read_legacy(fg__vtk *vtk, const fg__source *source);
-
-/* Open a file and add what it holds; the dataset has to be closed also after a failure.
- * Of files that name others (composite/) the options choose time and block. FILE_FORMAT,
- * UNSUPPORTED, ARGUMENT, FILE_ACCESS, MEMORY. */
-fg_status fg__vtk_open(fg__dataset *data, fg_context *context, const fg__source *source,
-                       const fg_read_options *options);
-fg_status fg__vtk_open_legacy(fg__dataset *data, fg_context *context,
-                              const fg__source *source, const fg_read_options *options);
 
 /* A file that another one names. */
 typedef struct fg__vtk_file {
@@ -236,6 +226,9 @@ bool fg__vtk_is_read_whole(const fg__vtk_array *array);
 fg_status fg__vtk_values_count(size_t *out, const fg__vtk *vtk,
                                const fg__vtk_array *array);
 
+/* A size before binary data, of vtk->header_bytes bytes. */
+uint64_t fg__vtk_size(const fg__vtk *vtk, const unsigned char *bytes);
+
 /* Decodes an array; checks as above first. */
 fg_status fg__vtk_values_create(fg__vtk_values *out, const fg__vtk *vtk,
                                 const fg__vtk_array *array, size_t tuples);
@@ -246,6 +239,10 @@ fg_status fg__vtk_values_create_some(fg__vtk_values *out, const fg__vtk *vtk,
                                      const fg__vtk_array *array, size_t tuples,
                                      size_t first, size_t end);
 void fg__vtk_values_clear(fg__vtk_values *values);
+
+/* All numbers of an array. */
+fg_status fg__vtk_read_numbers(double *out, const fg__vtk *vtk,
+                               const fg__vtk_array *array, size_t tuples);
 
 /* text.c. Reads an array of `all` numbers in text and keeps what out has room for. */
 fg_status fg__vtk_values_from_text(fg__vtk_values *out, const fg__vtk *vtk,

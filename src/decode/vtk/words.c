@@ -88,14 +88,12 @@ static fg_status add_number(fg__variable *v, const fg__vtk *vtk, const char *nam
                             const char *array_name)
 {
   const fg__vtk_array *array = fg__vtk_find(vtk, 0, FG__VTK_FIELD, array_name);
-  fg__vtk_values values;
+  double number;
   if (!array || array->components != 1)
     return FG_STATUS_OK;
-  fg_status status = fg__vtk_values_create(&values, vtk, array, 1);
+  const fg_status status = fg__vtk_read_numbers(&number, vtk, array, 1);
   if (status != FG_STATUS_OK)
     return status;
-  const double number = fg__vtk_value(&values, 0);
-  fg__vtk_values_clear(&values);
   if (strcmp(name, "AxisPeriod") == 0 && !(number >= 0.0 && isfinite(number)))
     return fg__fail(vtk->context, FG_STATUS_FILE_FORMAT, "%s: AxisPeriod is %g",
                     vtk->path, number);

@@ -21,6 +21,7 @@ typedef struct parameters {
   uint64_t field, initial, law, seed;
   int energy, nodes, coarsenings, cells[3], cycles, scheme;
   double anisotropy, isotropic_below, coverage, noise, gamma, accuracy;
+  double residual, theta, alpha;
 } parameters;
 
 /* In the order in which a difference is reported: first what follows from nothing else.
@@ -36,7 +37,10 @@ static const fg__named_value parameter_values[] = {
     {"noise", FG__VALUE_REAL, offsetof(parameters, noise)},
     {"accuracy", FG__VALUE_REAL, offsetof(parameters, accuracy)},
     {"cycles", FG__VALUE_INTEGER, offsetof(parameters, cycles)},
+    {"residual", FG__VALUE_REAL, offsetof(parameters, residual)},
     {"scheme", FG__VALUE_INTEGER, offsetof(parameters, scheme)},
+    {"theta", FG__VALUE_REAL, offsetof(parameters, theta)},
+    {"alpha", FG__VALUE_REAL, offsetof(parameters, alpha)},
     {"field", FG__VALUE_BITS, offsetof(parameters, field)},
     {"initial", FG__VALUE_BITS, offsetof(parameters, initial)},
     {"halvings", FG__VALUE_INTEGER, offsetof(parameters, coarsenings)},
@@ -84,7 +88,10 @@ static parameters parameters_of(const fg_evolution *e)
                       .coverage = e->options.coverage,
                       .noise = e->options.noise,
                       .gamma = e->info.gamma,
-                      .accuracy = e->options.accuracy};
+                      .accuracy = e->options.accuracy,
+                      .residual = e->options.residual,
+                      .theta = e->options.theta,
+                      .alpha = e->options.alpha};
 }
 
 /* Lines "NAME VALUE", an empty line, and the note. End with free; NULL without memory. */

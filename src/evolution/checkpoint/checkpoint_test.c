@@ -168,6 +168,10 @@ static void goes_on_by_theta(void **state)
   static const int steps[] = {0, 1, 1, 7, 40};
   fg_evolution_options options = {.nodes = NODES, .scheme = FG_SCHEME_THETA};
   goes_on(*state, &options, steps, 5, 5);
+  options.theta = 0.25;
+  options.alpha = 1.0;
+  options.residual = 1e-2;
+  goes_on(*state, &options, steps, 4, 5);
 }
 
 static void goes_on_with_a_mask(void **state)
@@ -336,6 +340,9 @@ static void another_run_is_refused(void **state)
   other.cycles = 4;
   differs(f, field, &other, "cycles: 2, not 4");
   other = options;
+  other.residual = 1e-3;
+  differs(f, field, &other, "residual: 0, not 0.001");
+  other = options;
   other.scheme = FG_SCHEME_THETA;
   other.accuracy = 0.08; /* the defaults depend on the scheme */
   other.cycles = 2;
@@ -351,6 +358,24 @@ static void another_run_is_refused(void **state)
   f->v[77] = nextafterf(f->v[77], 2.0F);
   field = make(f);
   differs(f, field, &options, "another field: ");
+  fg_field_destroy(field);
+}
+
+static void another_splitting_is_refused(void **state)
+{
+  fixture *f = *state;
+  fg_evolution_options options = {
+      .nodes = 33, .scheme = FG_SCHEME_THETA, .theta = 0.25, .alpha = 0.75};
+  fg_field *field = make(f);
+  fg_evolution *e = begin(f, field, &options);
+  save(f, e, NULL);
+  fg_evolution_destroy(e);
+  fg_evolution_options other = options;
+  other.theta = 0.125;
+  differs(f, field, &other, "theta: 0.25, not 0.125");
+  other = options;
+  other.alpha = 1.0;
+  differs(f, field, &other, "alpha: 0.75, not 1");
   fg_field_destroy(field);
 }
 
@@ -463,6 +488,7 @@ int main(void)
       CASE(comes_to_rest_in_the_same_step),
       CASE(notes_come_back),
       CASE(another_run_is_refused),
+      CASE(another_splitting_is_refused),
       CASE(threads_may_differ),
       CASE(the_previous_one_steps_in),
       CASE(a_failed_save_leaves_the_evolution),

@@ -64,7 +64,6 @@ static const fg__variable *find_plane(const fg__grid *grid, const fg__dataset *d
                                       int k)
 {
   const int x = grid->axis[0].dimension, y = grid->axis[1].dimension;
-  char text[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
   for (size_t i = 0; i < data->variable_count; ++i) {
     const fg__variable *v = &data->variables[i];
     if (v->rank != 2 || !fg__is_array(v) ||
@@ -72,8 +71,7 @@ static const fg__variable *find_plane(const fg__grid *grid, const fg__dataset *d
         !((v->dimension[0] == x && v->dimension[1] == y) ||
           (v->dimension[0] == y && v->dimension[1] == x)))
       continue;
-    fg__attribute_text(v, "units", text, sizeof text);
-    if (fg__units_read(text, label, sizeof label) == FG__QUANTITY_LENGTH &&
+    if (fg__units_of(v, NULL, 0) == FG__QUANTITY_LENGTH &&
         varies_along(v, data, &grid->axis[k]))
       return v;
   }

@@ -54,14 +54,13 @@ static bool is_on_indices(const fg__curvilinear *mesh, const fg__dataset *data)
 static bool is_on_a_plane(const fg__curvilinear *mesh, const fg__dataset *data)
 {
   for (int k = 0; k < 2; ++k) {
-    char text[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
+    char text[FG__TEXT_BYTES];
     const fg__curvilinear_part *u = &mesh->part[0];
     const fg__variable *along =
         fg__coordinate(data, u->variable, u->grid.axis[k].position);
     if (!along)
       return false;
-    fg__attribute_text(along, "units", text, sizeof text);
-    if (fg__units_read(text, label, sizeof label) == FG__QUANTITY_LENGTH)
+    if (fg__units_of(along, NULL, 0) == FG__QUANTITY_LENGTH)
       continue;
     fg__attribute_text(along, "standard_name", text, sizeof text);
     if (!starts_with(text, "projection_") && !starts_with(text, "grid_l") &&

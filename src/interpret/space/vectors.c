@@ -2,7 +2,6 @@
 #include <string.h>
 
 #include "interpret/space/space.h"
-#include "terms/units.h"
 #include "terms/vectors.h"
 
 /* Before what is found by names: vectors that the file calls so, then other vectors. */
@@ -25,22 +24,13 @@ fg__pair fg__pair_of_elements(const fg__variable *first)
 
 bool fg__pair_of_vector(fg__pair *out, const fg__variable *v)
 {
-  const bool space = v->location != FG__ON_GRID;
-  const fg__term term = fg__term_of(v);
-  fg__unit unit = {.quantity = FG__QUANTITY_SPEED};
   if (v->element != 1 || v->components > 3 || !fg__is_number(v) || v->no_velocity ||
-      (space && !fg__is_floating(v) && !v->is_marked))
+      (!fg__is_floating(v) && !v->is_marked))
     return false;
   *out = fg__pair_of_elements(v);
-  if (term.units && term.units[0])
-    fg__unit_read(&unit, term.units);
-  out->is_velocity = space || unit.quantity == FG__QUANTITY_SPEED;
-  out->found_by = !space         ? "its last dimension"
-                  : v->is_marked ? "Vectors attribute"
-                                 : "vector variable";
-  out->rank = !space ? (out->is_velocity ? FG__BY_VELOCITY_NAMES : FG__BY_OTHER_NAMES)
-              : v->is_marked ? RANK_MARKED
-                             : RANK_VECTOR;
+  out->is_velocity = true;
+  out->found_by = v->is_marked ? "Vectors attribute" : "vector variable";
+  out->rank = v->is_marked ? RANK_MARKED : RANK_VECTOR;
   return true;
 }
 

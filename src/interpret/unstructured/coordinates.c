@@ -170,12 +170,9 @@ static bool find_bounds(fg__unstructured *out, const fg__mesh_search *search)
 /* Whether places have times of their own: dates along their dimensions. */
 static bool have_times(const fg__mesh_search *search, int rank)
 {
-  char text[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
   for (size_t n = 0; n < search->data->variable_count; ++n) {
     const fg__variable *v = &search->data->variables[n];
-    if (fg__search_lies(search, v, rank) &&
-        fg__attribute_text(v, "units", text, sizeof text) &&
-        fg__units_read(text, label, sizeof label) == FG__QUANTITY_DATE)
+    if (fg__search_lies(search, v, rank) && fg__units_of(v, NULL, 0) == FG__QUANTITY_DATE)
       return true;
   }
   return false;

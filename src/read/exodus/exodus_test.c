@@ -228,8 +228,8 @@ static void damaged_files_do_no_harm(void **state)
     const unsigned char kept = bytes[n % size];
     if (n >= size)
       bytes[n % size] = (unsigned char)(kept ^ 0x81);
-    const fg_status status = fg__format_exodus.read(&field, f->context, &source, &none,
-                                                    (fg__slab_index){0, 1});
+    const fg_status status = fg__dataset_read(&field, f->context, &fg__format_exodus,
+                                              &source, &none, (fg__slab_index){0, 1});
     bytes[n % size] = kept; /* cppcheck-suppress redundantAssignment */
     assert_true((field != NULL) == (status == FG_STATUS_OK));
     assert_true(n >= size - 1 || status != FG_STATUS_OK);

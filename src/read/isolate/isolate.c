@@ -128,7 +128,7 @@ static void serve_one(fg_input *input, fg_context *context, fg__wire *wire,
   fg__answer answer;
   fg__child_bound(seconds_for(&input->isolation, question->kind),
                   bytes_for(&input->isolation));
-  fg_status status = fg__input_answer(&answer, context, input, question);
+  fg_status status = input->answer(&answer, context, input, question);
   fg__child_unbound();
   const char *texts[2] = {fg_context_message(context), fg_context_hint(context)};
   pass_answer(wire, &answer, &status, question->kind, texts);
@@ -146,7 +146,6 @@ static void serve(void *data, int socket)
   if (fg_context_create(&context) != FG_STATUS_OK)
     return;
   fg_context_set_input(context, &s->options);
-  s->input->decoded = fg__child_unbound;
   for (;;) {
     fg__wire_bytes(&in, &question, sizeof question);
     if (in.status != FG_STATUS_OK || out.status != FG_STATUS_OK)
@@ -212,7 +211,7 @@ fg_status fg__isolation_ask(fg__answer *out, fg_context *context, fg_input *inpu
   if (input->isolation.is_over)
     return complain(context, input);
   if (!start(input, context))
-    return fg__input_answer(out, context, input, question);
+    return input->answer(out, context, input, question);
   const struct sigaction before = fg__child_heed();
   const fg_status status = ask(out, context, input, question);
   sigaction(SIGCHLD, &before, NULL);

@@ -81,21 +81,20 @@ static fg_status take_memory(fg_context *context, size_t bytes)
                : fg__fail(context, FG_STATUS_MEMORY, "had it not");
 }
 
-static fg_status read_any(fg_field **out, fg_context *context, const fg__source *source,
-                          const fg_read_options *options, fg__slab_index slab)
+static fg_status read_any(fg_field **out, fg_context *context,
+                          const fg__question *question)
 {
   const pid_t own = getpid();
-  (void)source;
   if (write(told[1], &own, sizeof own) != (ssize_t)sizeof own)
     _exit(1);
-  switch ((reader)options->time) {
+  switch ((reader)question->time) {
   case READ_PLANE:
   case READ_BOX:
-    return make_field(out, context, options->time == READ_BOX ? 3 : 2, slab);
+    return make_field(out, context, question->time == READ_BOX ? 3 : 2, question->slab);
   case READ_HALF_A_GIGABYTE:
   case READ_TWO_GIGABYTES:
     return take_memory(context,
-                       (size_t)1 << (options->time == READ_TWO_GIGABYTES ? 31 : 29));
+                       (size_t)1 << (question->time == READ_TWO_GIGABYTES ? 31 : 29));
   case READ_COMPLAIN:
     fg__fail(context, FG_STATUS_UNSUPPORTED, "made up: no");
     fg__hint(context, "otherwise");
@@ -117,12 +116,10 @@ static fg_status read_any(fg_field **out, fg_context *context, const fg__source 
   return FG_STATUS_ARGUMENT;
 }
 
-static fg_status list(fg_inventory *inventory, fg_context *context,
-                      const fg__source *source, const fg_read_options *options)
+static fg_status list(fg_inventory *inventory, fg_context *context)
 {
   static const fg_axis_value level[] = {{850.0, "hPa", "850 hPa"},
                                         {(double)NAN, "", "top"}};
-  (void)source, (void)options;
   fg_inventory_vector vector = {.components = 2,
                                 .name = {"u", "v"},
                                 .units = "m/s",
@@ -138,14 +135,21 @@ static fg_status list(fg_inventory *inventory, fg_context *context,
   return status ? status : fg__inventory_add(inventory, context, &vector);
 }
 
-static const fg__format made_up = {
-    .name = "made up", .read = read_any, .inventory = list};
+static fg_status answer(fg__answer *out, fg_context *context, fg_input *input,
+                        const fg__question *question)
+{
+  *out = (fg__answer){.field = NULL};
+  if (question->kind == FG__ASK_FIELD)
+    return read_any(&out->field, context, question);
+  fg_status status = fg__inventory_create(&out->inventory, context, input->name);
+  return status ? status : list(out->inventory, context);
+}
 
 /* Three inputs of one kind: the second is isolated. */
 static fg_input input_of(const char *library)
 {
   return (fg_input){.name = "made up",
-                    .format = &made_up,
+                    .answer = answer,
                     .source = {.path = "made up"},
                     .isolation = {.library = library}};
 }

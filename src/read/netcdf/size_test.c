@@ -68,9 +68,9 @@ static fg_status read_bytes(sample_file *f, const unsigned char *bytes, size_t s
   const fg__format *format = fg__format_find(bytes, size);
   *field = NULL;
   fg_context_clear(f->context);
-  return format
-             ? format->read(field, f->context, &source, &options, (fg__slab_index){0, 1})
-             : fg__fail(f->context, FG_STATUS_FILE_FORMAT, "%s: unknown", f->path);
+  return format ? fg__dataset_read(field, f->context, format, &source, &options,
+                                   (fg__slab_index){0, 1})
+                : fg__fail(f->context, FG_STATUS_FILE_FORMAT, "%s: unknown", f->path);
 }
 
 /* Each truncated file is refused, or reads the same as the whole file. */

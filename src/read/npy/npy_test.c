@@ -122,8 +122,8 @@ static fg_status try_bytes(fg_context *context, const unsigned char *bytes, size
   fg_field *field = NULL;
   if (!format)
     return FG_STATUS_FILE_FORMAT;
-  const fg_status status =
-      format->read(&field, context, &source, &options, (fg__slab_index){0, 1});
+  const fg_status status = fg__dataset_read(&field, context, format, &source, &options,
+                                            (fg__slab_index){0, 1});
   assert_int_equal(status == FG_STATUS_OK, field != NULL);
   assert_true(status == FG_STATUS_OK || fg_context_message(context)[0]);
   fg_field_destroy(field);

@@ -170,9 +170,9 @@ static void halves_are_refused(void **state)
     const fg__source source = source_of(write_rows(text, refused[i].head));
     const fg_read_options options = {.vars = refused[i].vars};
     fg_field *field = NULL;
-    assert_int_equal(
-        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1}),
-        refused[i].status);
+    assert_int_equal(fg__dataset_read(&field, *state, &fg__format_table, &source,
+                                      &options, (fg__slab_index){0, 1}),
+                     refused[i].status);
     assert_null(field);
     if (!strstr(fg_context_message(*state), refused[i].words) ||
         !strstr(fg_context_hint(*state), refused[i].hint))

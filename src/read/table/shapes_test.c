@@ -195,8 +195,8 @@ static void zones_may_end_anywhere(void **state)
     const fg__source source = {
         .path = "cut", .bytes = (const unsigned char *)copy, .size = size};
     fg_field *field = NULL;
-    const fg_status status =
-        fg__format_table.read(&field, *state, &source, &options, (fg__slab_index){0, 1});
+    const fg_status status = fg__dataset_read(&field, *state, &fg__format_table, &source,
+                                              &options, (fg__slab_index){0, 1});
     assert_int_equal(status == FG_STATUS_OK, field != NULL);
     assert_true(status == FG_STATUS_OK || fg_context_message(*state)[0]);
     fg_field_destroy(field);

@@ -19,7 +19,8 @@ static inline fg_field *read_with(fg_context *context, const char *text,
   const fg__source source = source_of(text);
   fg_field *field = NULL;
   assert_true(fg__format_table.is_mine(source.bytes, source.size));
-  if (fg__format_table.read(&field, context, &source, options, (fg__slab_index){0, 1}))
+  if (fg__dataset_read(&field, context, &fg__format_table, &source, options,
+                       (fg__slab_index){0, 1}))
     fail_msg("%s\nof\n%s", fg_context_message(context), text);
   return field;
 }

@@ -119,8 +119,8 @@ static void each_time_has_its_own_levels(void **state)
     for (int n = 0; n < TIMES * LEVELS; ++n) {
       fg_field *field = NULL;
       const fg_read_options options = {.time = n / LEVELS, .level = n % LEVELS};
-      assert_int_equal(fg__format_table.read(&field, *state, &source, &options,
-                                             (fg__slab_index){0, 1}),
+      assert_int_equal(fg__dataset_read(&field, *state, &fg__format_table, &source,
+                                        &options, (fg__slab_index){0, 1}),
                        FG_STATUS_OK);
       assert_string_equal(fg_field_contents(field)->level,
                           words[options.time][options.level]);

@@ -198,7 +198,8 @@ static fg_status read_bytes(fg_field **out, fg_context *context, const void *byt
   *out = NULL;
   fg_status status = FG_STATUS_FILE_FORMAT;
   if (format)
-    status = format->read(out, context, &source, &none, (fg__slab_index){0, 1});
+    status =
+        fg__dataset_read(out, context, format, &source, &none, (fg__slab_index){0, 1});
   free(copy);
   return status;
 }

@@ -179,8 +179,9 @@ static void a_flat_curvilinear_grid_is_a_plane(void **state)
   const fg__source source = {"x", .bytes = file.bytes, .size = file.size};
   fg_inventory *inventory = NULL;
   assert_int_equal(fg__inventory_create(&inventory, *state, "x"), FG_STATUS_OK);
-  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source, NULL),
-                   FG_STATUS_OK);
+  assert_int_equal(
+      fg__dataset_inventory(inventory, *state, &fg__format_vti, &source, NULL),
+      FG_STATUS_OK);
   const fg_inventory_vector *told = fg_inventory_vector_at(inventory, 0);
   fg_field *field = field_of(*state, file, NULL);
   const fg_field_arrays *f = fg_field_contents(field);

@@ -243,7 +243,7 @@ static fg_status read_plane(fg_field **out, fg_context *context, const plane *p,
   const fg_read_options options = {.vars = vars};
   fg_context_clear(context);
   const fg_status status =
-      format->read(out, context, &source, &options, (fg__slab_index){0, 1});
+      fg__dataset_read(out, context, format, &source, &options, (fg__slab_index){0, 1});
   example_free(&file);
   return status;
 }

@@ -121,7 +121,8 @@ static fg_field *read_kind(fg_context *context, int kind, bool plane)
   const fg_read_options options = {0};
   fg_field *field = NULL;
   fg_context_clear(context);
-  if (formats[kind]->read(&field, context, &source, &options, (fg__slab_index){0, 1}))
+  if (fg__dataset_read(&field, context, formats[kind], &source, &options,
+                       (fg__slab_index){0, 1}))
     fail_msg("%d: %s", kind, fg_context_message(context));
   example_free(&file);
   return field;

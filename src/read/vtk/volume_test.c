@@ -238,8 +238,9 @@ static void an_inventory_tells_of_a_volume(void **state)
   fg_inventory *inventory = NULL;
   fg__source source = {.path = "a.vti", .bytes = file.bytes, .size = file.size};
   assert_int_equal(fg__inventory_create(&inventory, *state, "x"), FG_STATUS_OK);
-  assert_int_equal(fg__format_vti.inventory(inventory, *state, &source, NULL),
-                   FG_STATUS_OK);
+  assert_int_equal(
+      fg__dataset_inventory(inventory, *state, &fg__format_vti, &source, NULL),
+      FG_STATUS_OK);
   const fg_inventory_vector *u = fg_inventory_vector_at(inventory, 0);
   assert_int_equal(u->dimension, 3);
   assert_int_equal(u->components, 3);

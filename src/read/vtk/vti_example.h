@@ -248,7 +248,8 @@ static inline fg_status example_read_as(fg_field **out, fg_context *context,
   fg_context_clear(context);
   options = options ? options : &none;
   *out = NULL;
-  fg_status status = format->read(out, context, &source, options, (fg__slab_index){0, 1});
+  fg_status status =
+      fg__dataset_read(out, context, format, &source, options, (fg__slab_index){0, 1});
   assert_slabs_alike(format, &source, options, *out);
   free(copy);
   return status;

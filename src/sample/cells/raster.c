@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/weighted.h"
 #include "field/refused.h"
 #include "sample/cells/set.h"
 
@@ -164,12 +165,6 @@ static fg_status find_box_and_flat(cell_box *box, fg__cell_set *set)
   return status == FG_STATUS_OK ? find_flat(&set->flat, set, box) : status;
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Whether a cell's box and another have a place in common. */
 static bool meets(const fg__cell_set *set, const cell_box *cell, const cell_box *other)
 {
@@ -221,7 +216,7 @@ static fg_status count_intervals(double *out, const fg__cell_set *set, int axis,
     if (box.high[axis] - box.low[axis] > FLAT * FLAT * width)
       widths[measured++] = box.high[axis] - box.low[axis];
   }
-  qsort(widths, measured, sizeof *widths, by_size);
+  qsort(widths, measured, sizeof *widths, fg__by_size);
   *out = measured > 0 ? width / widths[(size_t)(NARROWER * (double)measured)] : 1.0;
   free(widths);
   return FG_STATUS_OK;

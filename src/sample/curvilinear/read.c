@@ -218,9 +218,7 @@ static fg_status read_angle(double *given[2], const centre_values *all,
   }
   if (status != FG_STATUS_OK || mesh->turn != FG__TURN_ANGLE)
     return status;
-  char units[FG__TEXT_BYTES], label[FG__TEXT_BYTES];
-  fg__attribute_text(mesh->angle[0], "units", units, sizeof units);
-  const bool degrees = fg__units_read(units, label, sizeof label) == FG__QUANTITY_DEGREES;
+  const bool degrees = fg__units_of(mesh->angle[0], NULL, 0) == FG__QUANTITY_DEGREES;
   for (size_t n = 0; n < all->count; ++n) {
     const double angle = given[0][n] * (degrees ? FG__RADIANS : 1.0);
     given[0][n] = cos(angle);

@@ -22,14 +22,8 @@ fg_status fg__sphere_read(fg__sphere **out, const fg__dataset *data, const fg__p
         "%zu of its %zu cells are missing: they lie over gaps more than 4.5 times as "
         "wide as the cells beside",
         grid->mesh->left_out, cells.count + grid->mesh->left_out);
-  const fg_field_arrays of_field = {
-      .velocity_name = {fg__component_name(pair, 0), fg__component_name(pair, 1)},
-      .velocity_units = words.units,
-      .title = words.title,
-      .time = words.time[0] ? words.time : NULL,
-      .level = words.level[0] ? words.level : NULL,
-      .projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL,
-      .doubts = grid->doubts[0] ? grid->doubts : NULL};
+  fg_field_arrays of_field = fg__vector_texts(&words, pair, grid);
+  of_field.projection = grid->mesh->plane[0] ? grid->mesh->plane : NULL;
   cells.words = &of_field;
   cells.threads = options->map ? options->map->threads : 0;
   return fg__sphere_of_cells(out, data->context, &cells);

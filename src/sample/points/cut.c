@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/weighted.h"
 #include "sample/points/delaunay.h"
 
 /* Numbers that belong to each point, one after the other. */
@@ -40,16 +41,10 @@ static double distance(const double *position, int a, int b)
               (p[2] - q[2]) * (p[2] - q[2]));
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const float x = *(const float *)a, y = *(const float *)b;
-  return (x > y) - (x < y);
-}
-
 /* The larger of the two in the middle where there are two. */
 static float median(float *number, size_t count)
 {
-  qsort(number, count, sizeof *number, by_size);
+  qsort(number, count, sizeof *number, fg__by_size_of_floats);
   return count > 0 ? number[count / 2] : 0.0f;
 }
 

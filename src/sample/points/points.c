@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/weighted.h"
 #include "field/refused.h"
 #include "sample/points/delaunay.h"
 #include "terms/units.h"
@@ -82,12 +83,6 @@ static fg_status check_points(const fg__scatter *points)
                            points->position[1], points->count);
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Longitudes begin behind their widest gap, where it is wide, so that those round the
  * antimeridian hang together. */
 static fg_status unwrap(const fg__scatter *points)
@@ -97,7 +92,7 @@ static fg_status unwrap(const fg__scatter *points)
   if (!order)
     return fg__fail_memory(points->context, "longitudes", points->count * sizeof *order);
   memcpy(order, longitude, points->count * sizeof *order);
-  qsort(order, points->count, sizeof *order, by_size);
+  qsort(order, points->count, sizeof *order, fg__by_size);
   double widest = 360.0 - (order[points->count - 1] - order[0]), first = order[0];
   const bool goes_round = widest >= 0.0;
   widest = fmax(WIDE_GAP, widest);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/weighted.h"
 #include "sample/points/nearest.h"
 #include "sample/points/points.h"
 
@@ -126,12 +127,6 @@ static void sample(float *const out[3], size_t n, const cloud *c, const double a
     out[k][n] = (float)value[k];
 }
 
-static int by_size(const void *a, const void *b)
-{
-  const float x = *(const float *)a, y = *(const float *)b;
-  return (x > y) - (x < y);
-}
-
 static bool is_in_region(const fg__scatter *points, size_t i)
 {
   bool in = true;
@@ -168,7 +163,7 @@ static fg_status measure(cloud *c, double *spacing)
     return fg__fail(points->context, FG_STATUS_ARGUMENT,
                     "%s: none of its %zu points lies in the region", points->path, count);
   }
-  qsort(sorted, inside, sizeof *sorted, by_size);
+  qsort(sorted, inside, sizeof *sorted, fg__by_size_of_floats);
   *spacing = (double)sorted[inside / 2] * cbrt(4.0 / 3.0 * 3.14159265358979 / FITTED);
   free(sorted);
   return FG_STATUS_OK;

@@ -29,19 +29,6 @@ static fg_status read_places(double *out, const fg__mesh_request *r,
   return status;
 }
 
-static fg_status check_missing(const fg__mesh_request *r, const fg__variable *v,
-                               const fg__missing_counts *missing)
-{
-  const size_t all = missing->fill + missing->range + missing->not_a_number;
-  if (all < r->grid->samples || r->counts_only)
-    return FG_STATUS_OK;
-  return fg__fail(r->data->context, FG_STATUS_FILE_FORMAT,
-                  "%s: all %zu samples of '%s' are missing (%zu fill values, %zu outside "
-                  "the valid range, %zu not a number)",
-                  v->path, all, v->name, missing->fill, missing->range,
-                  missing->not_a_number);
-}
-
 /* Speeds and directions become components; a calm needs no direction. */
 static fg_status turn_polar(double *const velocity[3], const fg__mesh_request *r)
 {
@@ -75,8 +62,8 @@ static fg_status read_velocity(double *velocity[3], const fg__mesh_request *r,
     status = velocity[k] ? read_places(velocity[k], r, v, grid, &missing)
                          : fg__fail_memory(r->data->context, "the velocity",
                                            r->grid->samples * sizeof **velocity);
-    if (status == FG_STATUS_OK)
-      status = check_missing(r, v, &missing);
+    if (status == FG_STATUS_OK && !r->counts_only)
+      status = fg__check_any(v, &missing, r->grid->samples);
   }
   return status;
 }
@@ -85,17 +72,12 @@ static fg_status read_velocity(double *velocity[3], const fg__mesh_request *r,
 static fg_status settle(fg__scatter *out, double *const velocity[3],
                         const unsigned char *valid, const fg__mesh_request *r)
 {
-  fg__raw_samples raw = {.path = r->data->file[0].path,
-                         .components = out->dimension,
-                         .count = r->grid->samples,
-                         .valid = valid,
-                         .is_polar = r->pair->polar.sense != 0};
-  for (int k = 0; k < out->dimension && k < 3 && velocity[k]; ++k) {
+  fg__raw_samples raw = fg__raw_samples_of(r->data, r->pair, out->dimension,
+                                           out->velocity, r->grid->samples);
+  raw.valid = valid;
+  for (int k = 0; k < out->dimension && k < 3 && velocity[k]; ++k)
     for (size_t n = 0; n < raw.count; ++n)
       out->velocity[k][n] = fg__as_velocity(velocity[k][n]);
-    raw.name[k] = r->pair->component[k]->plain_name;
-    raw.component[k] = out->velocity[k];
-  }
   fg_status status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
   for (int k = 0; k < 2 && r->pair->polar.sense != 0 && velocity[k]; ++k)
     for (size_t n = 0; n < raw.count; ++n)

@@ -26,14 +26,7 @@ static fg_status find_words(request *r)
 {
   const fg_status status =
       fg__vector_words_find(&r->words, r->data, r->pair, r->grid, r->options);
-  r->texts = (fg_field_arrays){
-      .velocity_name = {fg__component_name(r->pair, 0), fg__component_name(r->pair, 1),
-                        r->grid->dimension == 3 ? fg__component_name(r->pair, 2) : NULL},
-      .velocity_units = r->words.units,
-      .title = r->words.title,
-      .time = r->words.time[0] ? r->words.time : NULL,
-      .level = r->words.level[0] ? r->words.level : NULL,
-      .doubts = r->grid->doubts[0] ? r->grid->doubts : NULL};
+  r->texts = fg__vector_texts(&r->words, r->pair, r->grid);
   return status;
 }
 
@@ -48,14 +41,9 @@ static fg_status read_values(float **out, const request *r, const fg__variable *
   const fg_status status = fg__read_values(
       *out, &missing, r->data, v, grid, grid->time >= 0 && time < grid->times ? time : 0,
       grid->level >= 0 && level < grid->levels ? level : 0);
-  const size_t all = missing.fill + missing.range + missing.not_a_number;
-  if (status == FG_STATUS_OK && all == grid->samples && !is_mask && !r->counts_only)
-    return fg__fail(r->data->context, FG_STATUS_FILE_FORMAT,
-                    "%s: all %zu samples of '%s' are missing (%zu fill values, %zu "
-                    "outside the valid range, %zu not a number)",
-                    v->path, all, v->name, missing.fill, missing.range,
-                    missing.not_a_number);
-  return status;
+  return status == FG_STATUS_OK && !is_mask && !r->counts_only
+             ? fg__check_any(v, &missing, grid->samples)
+             : status;
 }
 
 fg_status fg__mesh_mask_find(const fg__variable **out, fg__grid *grid,
@@ -126,13 +114,8 @@ static fg_status read_vectors(float *velocity[2], const request *r)
                          &grid->unstructured->of_v, false);
   if (status == FG_STATUS_OK)
     status = apply_mask(velocity[0], r);
-  const fg__raw_samples raw = {
-      .path = r->data->file[0].path,
-      .name = {r->pair->component[0]->plain_name, r->pair->component[1]->plain_name},
-      .component = {velocity[0], velocity[1]},
-      .components = 2,
-      .count = grid->samples,
-      .is_polar = r->pair->polar.sense != 0};
+  const fg__raw_samples raw =
+      fg__raw_samples_of(r->data, r->pair, 2, velocity, grid->samples);
   if (status == FG_STATUS_OK)
     status = fg__missing_settle(r->data->context, &raw, &r->data->missing);
   if (status == FG_STATUS_OK)
@@ -187,16 +170,6 @@ static fg_status check_count(const request *r, size_t count)
                   count);
 }
 
-static void free_cells(fg__sphere_cells *cells)
-{
-  free(cells->longitude);
-  free(cells->latitude);
-  free(cells->east);
-  free(cells->north);
-  free(cells->corner);
-  *cells = (fg__sphere_cells){0};
-}
-
 /* Points and cells; to be freed even after a failure. */
 static fg_status make_cells(fg__sphere_cells *out, size_t *missing, const request *r)
 {
@@ -244,7 +217,7 @@ static fg_status make_sphere(fg__sphere **out, fg__scatter_between *between,
   cells.words = &r->texts;
   if (status == FG_STATUS_OK)
     return fg__sphere_of_cells(out, r->data->context, &cells);
-  free_cells(&cells);
+  fg__sphere_cells_clear(&cells);
   return status;
 }
 
@@ -292,13 +265,11 @@ static fg_status name_axes(fg__grid *plane, fg_field_arrays *texts, const reques
 {
   const fg__unstructured *mesh = r->grid->unstructured;
   const fg__variable *const *at = mesh->node[0] ? mesh->node : mesh->centre;
-  char units[FG__TEXT_BYTES];
   *plane = *r->grid;
   for (int k = 0; k < r->grid->dimension; ++k) {
     fg__grid_axis *axis = &plane->axis[k];
     axis->dimension = mesh->dimension;
-    fg__attribute_text(at[k], "units", units, sizeof units);
-    axis->quantity = fg__units_read(units, axis->units, sizeof axis->units);
+    axis->quantity = fg__units_of(at[k], axis->units, sizeof axis->units);
     texts->axis_name[k] = at[k]->plain_name;
     texts->axis_units[k] = axis->units;
   }
@@ -356,7 +327,7 @@ static fg_status plane_field(fg_field **out, fg__scatter_between *between,
   if (status == FG_STATUS_OK)
     status = fg__point_grid_field(out, r->data->context, &grid, &texts, slab);
   fg__point_grid_clear(&grid);
-  free_cells(&cells);
+  fg__sphere_cells_clear(&cells);
   return status;
 }
 

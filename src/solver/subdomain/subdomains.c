@@ -68,3 +68,10 @@ void fg__subdomains_apply(const fg__subdomains *subdomains,
   fg__pass_fill_ghosts(multigrid, u);
   fg__pass_fill_ghosts(multigrid, w);
 }
+
+void fg__subdomains_copy(const fg__subdomains *subdomains, const float *from, float *to)
+{
+  for (int n = 0; n < subdomains->own_count; ++n)
+    if (subdomains->done[subdomains->own[n]])
+      to[subdomains->at[n]] = from[subdomains->at[n]];
+}

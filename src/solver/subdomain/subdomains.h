@@ -69,4 +69,7 @@ void fg__subdomains_solve(const fg__subdomains *subdomains,
 void fg__subdomains_apply(const fg__subdomains *subdomains,
                           const fg__multigrid *multigrid, float *copy);
 
+/* Copies the nodes that are solved, between arrays like u. */
+void fg__subdomains_copy(const fg__subdomains *subdomains, const float *from, float *to);
+
 #endif
