@@ -7,9 +7,10 @@ static void every_allocation_fails_in_turn(fg_context *context, const fg_field *
                                            const fg_icons *icons)
 {
   fg_score score;
+  const fg_score_options alone = {.threads = 1};
   failing = -1;
   asked = unfreed = 0;
-  assert_int_equal(fg_icons_score(&score, context, field, icons, NULL), FG_STATUS_OK);
+  assert_int_equal(fg_icons_score(&score, context, field, icons, &alone), FG_STATUS_OK);
   assert_int_equal(unfreed, 0);
   const long all = asked;
   assert_true(all > 30);
@@ -17,7 +18,7 @@ static void every_allocation_fails_in_turn(fg_context *context, const fg_field *
     fg_context_clear(context);
     asked = unfreed = 0;
     failing = n;
-    const fg_status status = fg_icons_score(&score, context, field, icons, NULL);
+    const fg_status status = fg_icons_score(&score, context, field, icons, &alone);
     failing = -1;
     if (status != FG_STATUS_MEMORY)
       fail_msg("allocation %ld of %ld: status %d", n, all, status);

@@ -33,7 +33,7 @@ static const double LEAST_PROMISE = 1e-4;
 static const double NEIGHBOURS = 1.3;
 
 /* Lines of icons that are visited in the same round are so many lambda apart, about. */
-static const float BETWEEN = 0.5F;
+static const float BETWEEN = 1.0F;
 
 /* The axes of moves: across (in 3D two directions), along, and the two ways. */
 enum { ALONG = 2, WAYS = 3, AXES = 5, MOVES = 2 * AXES };
