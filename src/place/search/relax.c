@@ -32,7 +32,8 @@ static const double LEAST_PROMISE = 1e-4;
 /* Icons whose seeds are so many lambda from a change are its neighbours. */
 static const double NEIGHBOURS = 1.3;
 
-/* Lines of icons that are visited in the same round are so many lambda apart, about. */
+/* Lines of icons that are visited in the same round are at least twice so many lambda
+ * apart, about. */
 static const float BETWEEN = 1.0F;
 
 /* The axes of moves: across (in 3D two directions), along, and the two ways. */
@@ -61,9 +62,9 @@ static int across(double out[2][3], int dimension, const double direction[3])
   return 2;
 }
 
-/* The place on a line an arc length from its seed, at its ends at most. */
-static void place_along(double out[3], const fg__place_search *search,
-                        const fg__place_line *line, double way)
+/* The sample of a line an arc length from its seed, at its ends at most. */
+static int sample_along(const fg__place_search *search, const fg__place_line *line,
+                        double way)
 {
   int n = line->seed;
   double left = fabs(way) / search->scale.sampling;
@@ -71,9 +72,7 @@ static void place_along(double out[3], const fg__place_search *search,
     n += way < 0.0 ? -1 : 1;
     left -= 1.0;
   }
-  for (int k = 0; k < 3; ++k)
-    out[k] =
-        search->scale.origin[k] + (double)line->position[k][n] * search->scale.lambda;
+  return n;
 }
 
 /* Moves both ends of a line along the flow, as far as the ways are long enough. */
@@ -85,26 +84,38 @@ static void slide(double way[2], double step, double shortest)
   way[1 - behind] += most;
 }
 
-/* A seed moved along its axes. Along the flow a line of free length slides: its ways
- * change, and the seed stays. */
+/* A seed moved along its axes. A line of free length slides along the flow: its ways
+ * change, and the seed stays. Across, it moves from its middle, which becomes the seed.
+ */
 static fg__place_seed moved(const fg__place_search *search, const fg__place_icon *icon,
                             const double step[AXES])
 {
+  const fg__place_scale *scale = &search->scale;
+  const fg__place_line *line = &icon->line;
+  const bool aside = step[0] != 0.0 || step[1] != 0.0;
+  const double way = !scale->free ? step[ALONG]
+                     : aside      ? (line->way[1] - line->way[0]) / 2.0
+                                  : 0.0;
+  const int from = sample_along(search, line, way);
   fg__place_seed seed = icon->seed;
   double direction[3], side[2][3];
-  for (int k = 0; k < 3; ++k)
-    direction[k] = (double)icon->line.tangent[k][icon->line.seed];
-  int sides = across(side, search->scale.dimension, direction);
-  if (step[ALONG] != 0.0 && !search->scale.free)
-    place_along(seed.position, search, &icon->line, step[ALONG]);
+  for (int k = 0; k < 3; ++k) {
+    direction[k] = (double)line->tangent[k][from];
+    if (from != line->seed)
+      seed.position[k] =
+          scale->origin[k] + (double)line->position[k][from] * scale->lambda;
+  }
+  if (scale->free) {
+    seed.way[0] += (from - line->seed) * scale->sampling;
+    seed.way[1] -= (from - line->seed) * scale->sampling;
+    slide(seed.way, step[ALONG], SHORTEST_WAY * scale->lambda);
+  }
+  const int sides = across(side, scale->dimension, direction);
   for (int n = 0; n < sides; ++n)
-    for (int k = 0; k < search->scale.dimension; ++k)
+    for (int k = 0; k < scale->dimension; ++k)
       seed.position[k] += step[n] * side[n][k];
-  if (search->scale.free)
-    slide(seed.way, step[ALONG], SHORTEST_WAY * search->scale.lambda);
-  for (int n = 0; n < 2 && search->scale.free; ++n)
-    seed.way[n] =
-        fg__most(seed.way[n] + step[WAYS + n], SHORTEST_WAY * search->scale.lambda);
+  for (int n = 0; n < 2 && scale->free; ++n)
+    seed.way[n] = fg__most(seed.way[n] + step[WAYS + n], SHORTEST_WAY * scale->lambda);
   return seed;
 }
 

