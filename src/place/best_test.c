@@ -17,7 +17,8 @@ static void place_scales(fg_icons *out[2], fg_context *context, const fg_field *
   fg_placement_destroy(placement);
 }
 
-/* Few icons of a first scale and of one after a finer one, and a thorough search. */
+/* Few icons of a first scale and of one after a finer one, and a thorough search: threads
+ * make a placement each. More icons: they share one out. */
 static void threads_place_alike(void **state)
 {
   static const struct {
@@ -25,15 +26,19 @@ static void threads_place_alike(void **state)
     velocity_of velocity;
     int counts[2];
     fg_effort effort;
-  } cases[] = {{&PLAIN, coast, {12, 7}, FG_EFFORT_NORMAL},
-               {&PLAIN, coast, {45, 12}, FG_EFFORT_NORMAL},
-               {&ROUND, winds, {16, 9}, FG_EFFORT_THOROUGH},
-               {&SOLID, hall, {8, 4}, FG_EFFORT_THOROUGH}};
+    int threads;
+  } cases[] = {{&PLAIN, coast, {12, 7}, FG_EFFORT_NORMAL, 3},
+               {&PLAIN, coast, {45, 12}, FG_EFFORT_NORMAL, 3},
+               {&ROUND, winds, {16, 9}, FG_EFFORT_THOROUGH, 3},
+               {&SOLID, hall, {8, 4}, FG_EFFORT_THOROUGH, 3},
+               {&PLAIN, coast, {90, 60}, FG_EFFORT_NORMAL, 2},
+               {&SOLID, hall, {30, 20}, FG_EFFORT_QUICK, 4}};
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
     fg_field *field = field_of(*state, cases[n].box, cases[n].velocity);
     fg_icons *one[2], *other[2];
     place_scales(one, *state, field, cases[n].counts, cases[n].effort, 1);
-    place_scales(other, *state, field, cases[n].counts, cases[n].effort, 3);
+    place_scales(other, *state, field, cases[n].counts, cases[n].effort,
+                 cases[n].threads);
     for (int k = 0; k < 2; ++k) {
       assert_int_equal(fg_icons_count(other[k]), cases[n].counts[k]);
       assert_same_icons(one[k], other[k]);
