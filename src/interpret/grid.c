@@ -300,8 +300,7 @@ static void check_directions(fg__grid *grid, const fg__dataset *data,
     grid->points_east = true;
     return;
   }
-  fg__attribute_text(u, "grid_mapping", mapping, sizeof mapping);
-  const fg__variable *described = mapping[0] ? fg__dataset_find(data, mapping) : NULL;
+  const fg__variable *described = fg__grid_mapping_of(data, u);
   if (!described ||
       !fg__attribute_text(described, "grid_mapping_name", mapping, sizeof mapping))
     snprintf(mapping, sizeof mapping, "%s",

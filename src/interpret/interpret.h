@@ -291,7 +291,12 @@ const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *dat
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
                      const fg__variable *variable);
 
-/* projection.c. Finds the PROJ string of axes in a projection or about a rotated pole
+/* projection.c. The variable that describes the projection of another one's grid, named by
+ * its attribute grid_mapping, also as "crs: x y"; NULL: none. */
+const fg__variable *fg__grid_mapping_of(const fg__dataset *data,
+                                        const fg__variable *variable);
+
+/* Finds the PROJ string of axes in a projection or about a rotated pole
  * from the variable's grid mapping. Where the file's longitudes and latitudes contradict
  * the projection, the grid is off_axes. MEMORY, FILE_ACCESS. */
 fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,

@@ -244,11 +244,12 @@ static fg_status check(fg__grid *grid, const fg__dataset *data, const fg__variab
   return status;
 }
 
-static const fg__variable *described_by(const fg__dataset *data, const fg__variable *u)
+const fg__variable *fg__grid_mapping_of(const fg__dataset *data,
+                                        const fg__variable *variable)
 {
   char name[FG__TEXT_BYTES];
-  fg__attribute_text(u, "grid_mapping", name, sizeof name);
-  name[strcspn(name, ": ")] = '\0'; /* "crs: x y" */
+  fg__attribute_text(variable, "grid_mapping", name, sizeof name);
+  name[strcspn(name, ": ")] = '\0';
   return name[0] ? fg__dataset_find(data, name) : NULL;
 }
 
@@ -256,7 +257,7 @@ fg_status fg__projection_find(fg__grid *grid, const fg__dataset *data,
                               const fg__variable *u)
 {
   static const double none[2] = {0.0, 0.0};
-  const fg__variable *described = described_by(data, u);
+  const fg__variable *described = fg__grid_mapping_of(data, u);
   const fg__projector *by = data->projector;
   fg__map *map = NULL;
   grid->projection[0] = '\0';

@@ -61,9 +61,7 @@ static long sides_of_count(size_t cells)
 static const fg__variable *healpix_mapping(const fg__mesh_search *search)
 {
   char text[FG__TEXT_BYTES];
-  fg__attribute_text(search->u, "grid_mapping", text, sizeof text);
-  text[strcspn(text, ": ")] = '\0';
-  const fg__variable *v = text[0] ? fg__dataset_find(search->data, text) : NULL;
+  const fg__variable *v = fg__grid_mapping_of(search->data, search->u);
   if (!v)
     v = fg__dataset_find(search->data, "crs");
   v = v ? v : fg__dataset_find(search->data, "healpix");

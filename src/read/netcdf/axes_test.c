@@ -21,10 +21,12 @@
 #define CURVED "cross[3]; along[4];" STRAIGHT("cross,along", "2")
 #define GRID "geo 4 x 3|axis 1 'latitude'|x = 300 350 365 380|y = -10 5 30|at 365 0 = 3 3"
 
-#define MAPPED(mapping)                                                                  \
+#define MAPPED(mapping) MAPPED_BY("crs", mapping)
+#define MAPPED_BY(variable, mapping)                                                     \
   "y[3] :units=m = 0 2500 5000; x[4] :units=m = 0 2500 5000 7500; int crs() "            \
   ":grid_mapping_name=" mapping "; float u(y,x) :standard_name=eastward_wind "           \
-  ":grid_mapping=crs ~ 1 x 1; float v(y,x) :standard_name=northward_wind ~ 1 x 1"
+  ":grid_mapping=" variable                                                              \
+  " ~ 1 x 1; float v(y,x) :standard_name=northward_wind ~ 1 x 1"
 #define ROTATED(u, v)                                                                    \
   "rlat[3] :units=degrees :standard_name=grid_latitude = -10 5 30; rlon[4] "             \
   ":units=degrees :standard_name=grid_longitude = -3 -2 -1 .5; float u(rlat,rlon)" u     \
@@ -237,6 +239,10 @@ static const situation SITUATIONS[] = {
 
     {.what = "components along east on axes that do not run east",
      .file = MAPPED("lambert_conformal_conic"),
+     .refused = "points east",
+     .hint = "--scale map"},
+    {.what = "the same, of a mapping that names its axes",
+     .file = MAPPED_BY("crs: x y", "lambert_conformal_conic"),
      .refused = "points east",
      .hint = "--scale map"},
     {.what = "the same, as asked", .options = {.scale = FG_SCALE_MAP}, .field = "map "},
