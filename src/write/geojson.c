@@ -47,7 +47,7 @@ static void write_number(FILE *stream, const char *before, double number)
   fputs(text, stream);
 }
 
-static void write_position(FILE *stream, const double position[3], int dimension)
+static void write_position(FILE *stream, const double *position, int dimension)
 {
   for (int k = 0; k < 3 && k < dimension; ++k)
     write_number(stream, k == 0 ? "[" : ",", position[k]);

@@ -252,8 +252,9 @@ static fg_status attempt(double *rise, visit *out, fg__place_worker *worker,
   const bool stays =
       memcmp(seed->position, icon->seed.position, sizeof seed->position) == 0;
   fg__place_line line;
-  fg__place_steps elsewhere, *steps = stays ? &icon->steps : &elsewhere;
+  fg__place_steps elsewhere;
   fg__place_no_steps(&elsewhere);
+  fg__place_steps *steps = stays ? &icon->steps : &elsewhere;
   *rise = HUGE_VAL;
   fg__place_trace_on(&line, search->domain, &search->scale, seed, steps);
   if (line.count == 0)
