@@ -291,8 +291,8 @@ const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *dat
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
                      const fg__variable *variable);
 
-/* projection.c. The variable that describes the projection of another one's grid, named by
- * its attribute grid_mapping, also as "crs: x y"; NULL: none. */
+/* projection.c. The variable that describes the projection of another one's grid, named
+ * by its attribute grid_mapping, also as "crs: x y"; NULL: none. */
 const fg__variable *fg__grid_mapping_of(const fg__dataset *data,
                                         const fg__variable *variable);
 
