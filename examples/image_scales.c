@@ -132,7 +132,7 @@ static bool write_scale(const char *path, const fg_density *density, const doubl
   return fclose(file) == 0 && written;
 }
 
-/* Steps until no more than so many clusters are left, and writes them. */
+/* Steps until at most `clusters` are left, and writes them. */
 static fg_status make_scale(fg_evolution *evolution, const grey *g, int clusters,
                             const char *path)
 {

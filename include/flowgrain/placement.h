@@ -27,9 +27,10 @@ typedef enum fg_effort {
 typedef struct fg_placement_options {
   fg_lengths lengths; /* [free] */
   fg_effort effort;   /* [normal] */
-  int threads;        /* the result does not depend on it; where several placements are
-                         compared, of few arrows or with FG_EFFORT_THOROUGH, each takes the
-                         memory of a placement [all cores; one, beside other ranks] */
+  int threads;        /* at most 9 are used; the result does not depend on it; where
+                         several placements are compared, of few arrows or with
+                         FG_EFFORT_THOROUGH, each takes the memory of a placement [all
+                         cores; one, beside other ranks] */
 } fg_placement_options;
 
 /* A zero field means its default, in brackets. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The Gaussian is cut off at so many of its standard deviations. */
+/* Where the Gaussian is cut off, in its standard deviations. */
 static const double CUT_OFF = 3.0;
 
 /* Of lambda: the Gaussian's standard deviation, and the distance below which points are

@@ -14,7 +14,7 @@
 
 typedef void (*velocity_of)(const double position[3], double velocity[3]);
 
-/* A box sampled at so many nodes a side; no z in 2D. */
+/* A box and its nodes along each side; no z in 2D. */
 typedef struct sampling {
   int dimension, nodes[3];
   double low[3], high[3];

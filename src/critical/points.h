@@ -1,6 +1,6 @@
 /* Critical points, and which of two sets are the same. */
-#ifndef FG__SCORE_POINTS_H
-#define FG__SCORE_POINTS_H
+#ifndef FG__CRITICAL_POINTS_H
+#define FG__CRITICAL_POINTS_H
 
 #include <stddef.h>
 

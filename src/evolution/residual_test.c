@@ -129,7 +129,7 @@ static void cycles_make_it_fall_geometrically(void **state)
   }
 }
 
-/* A run of so many steps. */
+/* A run of STEPS steps. */
 enum { STEPS = 70, NODES = 97 };
 
 typedef struct run {

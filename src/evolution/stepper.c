@@ -24,7 +24,7 @@ static const double most_growth = 2.0, most_shrinkage = 0.4;
 static const double reject_factor = 0.5, after_reject = 0.75, relaxation = 1.3;
 static const double most_extrapolation = 2.0;
 
-/* To a residual: a step that so many cycles do not solve is rejected. Rounding is what is
+/* To a residual: a step that these cycles do not solve is rejected. Rounding is what is
  * left when a cycle changes u by less than this (rms) and the residual no longer falls.
  */
 enum { MOST_CYCLES = 100 };

@@ -13,7 +13,7 @@ typedef struct fg__stepper {
   bool second_order;          /* backward differences over two steps, not one */
   double accuracy;            /* eta */
   int cycles;                 /* a step, or a substep of the theta scheme */
-  double residual;            /* to which it is solved instead; 0: by so many cycles */
+  double residual;            /* to which it is solved instead; 0: `cycles` are made */
   double cell_volume;         /* hx hy (hz), units of the longest side */
   double total_mass;          /* sum of the nodes' relative masses */
   double mean;                /* of u, conserved */

@@ -53,8 +53,8 @@ enum { MOST_INK_STEPS = 12 };
  * the penalty at once; the share of it while icons still get fewer. */
 static const double INK_PER_PENALTY = 0.4, MOST_PENALTY_STEP = 0.4, CHAIN_SHARE = 0.5;
 
-/* Icons that are nearly right move by so many lambda. */
-static const double SMALL_STEP = 0.1;
+/* Icons that are nearly right move by so many lambda, and at least by LAST_LEAST_STEP. */
+static const double SMALL_STEP = 0.1, LAST_LEAST_STEP = 0.02;
 
 /* The largest share of lines that may touch others, and how the penalty grows for it. */
 static const double MOST_TOUCHING = 0.002, TOUCH_GROWTH = 2.0;
@@ -162,7 +162,7 @@ static bool has_other_ink(const fg__place_search *search)
  * again, first by steps of `step` lambda. */
 static fg_status descend(fg__place_search *search, int sweeps, double step)
 {
-  search->least_step = FG__PLACE_LAST_LEAST_STEP;
+  search->least_step = LAST_LEAST_STEP;
   fg_status status = fg__place_relax(search, sweeps);
   for (int n = 0; n < MOST_INK_STEPS && status == FG_STATUS_OK && has_other_ink(search);
        ++n) {
@@ -258,6 +258,8 @@ static int count_steps(int from, int to, double ratio)
   return steps > 1.0 ? (int)steps : 1;
 }
 
+/* The numbers between are roots of whole numbers, which are whole or irrational: none
+ * lies half-way, and the last digit of pow does not matter. */
 fg_status fg__descent_go_down(fg__place_descent *descent, int count, double ratio)
 {
   fg__place_search *search = descent->search;

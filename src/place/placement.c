@@ -34,14 +34,19 @@ const fg_field *fg__placement_field(const fg_placement *placement)
   return placement->domain.given;
 }
 
+/* As many as placements that are compared: in a round of visits more would mostly wait.
+ */
+enum { MOST_THREADS = 9 };
+
 /* Ranks have their own work beside that of the one that places. */
 static int count_threads(fg_context *context, const fg_placement_options *options)
 {
   int rank, ranks;
   fg_ranks(context, &rank, &ranks);
-  return options->threads > 0 ? options->threads
-         : ranks > 1          ? 1
-                              : fg__threads_available();
+  const int wanted = options->threads > 0 ? options->threads
+                     : ranks > 1          ? 1
+                                          : fg__threads_available();
+  return wanted < MOST_THREADS ? wanted : MOST_THREADS;
 }
 
 fg_status fg_placement_create(fg_placement **out, fg_context *context,

@@ -14,7 +14,7 @@ enum { PASSES = 2 };
 static const double APART = 0.5;
 static const double OFFSET = 0.25;
 
-/* Of FG__PLACE_CANDIDATES so many, the best, are tried beside their places, too. */
+/* How many of FG__PLACE_CANDIDATES, the best, are tried beside their places, too. */
 enum { MOVED = 8 };
 
 /* Errors beside a line do not call for another one: they count by d^2 / (d^2 + this), d

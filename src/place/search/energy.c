@@ -20,50 +20,6 @@ static const double BRIEF = 0.8;
  * line may be nearer. */
 static const float TOUCHING = 0.11F;
 
-fg_status fg__place_find_near(fg__place_worker *worker, const fg__place_box *box,
-                              int except)
-{
-  const fg__place_search *search = worker->search;
-  int most = 0;
-  worker->near_count = 0;
-  if (!fg__grow((void **)&worker->near, &worker->near_capacity, (size_t)search->count,
-                sizeof *worker->near))
-    return FG_STATUS_MEMORY;
-  for (int n = 0; n < search->count; ++n)
-    if (n != except && fg__place_boxes_meet(box, &search->box[n])) {
-      worker->near[worker->near_count++] = n;
-      most += search->icon[n]->line.count;
-    }
-  fg_status status =
-      fg__place_points_start(&worker->beside, NULL, search->scale.dimension, most);
-  for (int n = 0; n < worker->near_count && status == FG_STATUS_OK; ++n)
-    fg__place_points_add(&worker->beside, &search->icon[worker->near[n]]->line);
-  return status;
-}
-
-fg_status fg__place_gather(fg__place_worker *worker, const fg__place_box *box, int except)
-{
-  const fg__place_search *search = worker->search;
-  fg_status status = fg__place_find_near(worker, box, except);
-  if (status == FG_STATUS_OK)
-    status = fg__place_contribution_start(&worker->others, NULL, search->scale.dimension,
-                                          box, (float)fg__place_reach(search));
-  for (int n = 0; n < worker->near_count && status == FG_STATUS_OK; ++n)
-    fg__place_contribution_add(&worker->others,
-                               &search->icon[worker->near[n]]->contribution);
-  return status;
-}
-
-fg_status fg__place_diffusion_cost(double *cost, fg__place_worker *worker,
-                                   const fg__place_line *from, const fg__place_line *to)
-{
-  const fg__place_search *search = worker->search;
-  fg_status status =
-      fg__place_diffusion_try(cost, &worker->window, &search->diffusion, NULL, from, to);
-  *cost *= search->scale.diffusion * (double)search->weights.inverse_error;
-  return status;
-}
-
 /* exp(-x) for x >= 0 as (1 - x / 8)^8: the same bits everywhere, and 0 from 8 on. */
 static double decay(double x)
 {
@@ -106,19 +62,11 @@ double fg__place_line_penalty(const fg__place_scale *scale, const fg__place_poin
   return crowd + ends + scale->brevity * brief * brief + scale->ink * length;
 }
 
-/* Fails where a worker has. */
-static fg_status check(const fg__place_search *search, fg_status status)
-{
-  return status == FG_STATUS_OK ? status
-                                : fg__fail_memory(search->context, "readers of arrows",
-                                                  sizeof(fg__place_worker));
-}
-
 fg_status fg__place_gather_whole(fg__place_search *search)
 {
   fg__place_box all = {{0}, {0}};
   memcpy(all.size, search->raster.cells, sizeof all.size);
-  return check(search, fg__place_gather(&search->own, &all, -1));
+  return fg__place_check(search, fg__place_gather(&search->own, &all, -1));
 }
 
 fg_status fg__place_error(fg__place_search *search, double *error)
@@ -144,7 +92,8 @@ fg_status fg__place_touching(fg__place_search *search, double *share)
     const fg__place_icon *icon = search->icon[n];
     const fg__place_line *line = &icon->line;
     float square[FG__PLACE_SAMPLES];
-    status = check(search, fg__place_find_near(&search->own, &icon->contribution.box, n));
+    status = fg__place_check(
+        search, fg__place_find_near(&search->own, &icon->contribution.box, n));
     if (status != FG_STATUS_OK)
       break;
     fg__place_points_nearest(square, &search->own.beside, line);
@@ -183,7 +132,8 @@ fg_status fg__place_energy(fg__place_search *search, double *energy)
             fg__place_diffusion_sum(&search->diffusion);
   for (int n = 0; n < search->count && status == FG_STATUS_OK; ++n) {
     fg__place_icon *icon = search->icon[n];
-    status = check(search, fg__place_find_near(&search->own, &icon->contribution.box, n));
+    status = fg__place_check(
+        search, fg__place_find_near(&search->own, &icon->contribution.box, n));
     if (status == FG_STATUS_OK) /* both of a pair pay */
       *energy += fg__place_line_penalty(&search->scale, &search->own.beside, &icon->line);
   }

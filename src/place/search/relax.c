@@ -32,8 +32,8 @@ static const double LEAST_PROMISE = 1e-4;
 /* Icons whose seeds are so many lambda from a change are its neighbours. */
 static const double NEIGHBOURS = 1.3;
 
-/* Lines of icons that are visited in the same round are at least twice so many lambda
- * apart, about. */
+/* Half of the least distance between lines of icons that are visited in the same round,
+ * about, in lambda. */
 static const float BETWEEN = 1.0F;
 
 /* The axes of moves: across (in 3D two directions), along, and the two ways. */

@@ -6,11 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The least step of moves in lambda, but in a last descent. */
+static const double LEAST_STEP = 0.04;
+
 static fg_status set_scale(fg__place_search *search, int count, bool free,
                            fg__place_grain grain)
 {
   search->scale = fg__place_scale_of(search->domain, count, free, grain);
-  search->least_step = FG__PLACE_LEAST_STEP;
+  search->least_step = LEAST_STEP;
   fg_status status = fg__place_raster_create(&search->raster, search->context,
                                              search->domain, &search->scale);
   if (status == FG_STATUS_OK)
@@ -67,9 +70,9 @@ void fg__place_search_clear(fg__place_search *search)
   free(search->box);
   clear_scale(search);
   fg__place_worker_clear(&search->own);
-  for (size_t n = 0; n < search->beside_count; ++n)
-    fg__place_worker_clear(&search->beside[n]);
-  free(search->beside);
+  for (size_t n = 0; n < search->helper_count; ++n)
+    fg__place_worker_clear(&search->helper[n]);
+  free(search->helper);
   fg__place_visits_clear(search);
   *search = (fg__place_search){0};
 }

@@ -5,10 +5,6 @@
 
 #include "place/search/worker.h"
 
-/* The least step of moves in lambda, and that of a placement's last descent. */
-#define FG__PLACE_LEAST_STEP 0.04
-#define FG__PLACE_LAST_LEAST_STEP 0.02
-
 typedef struct fg__place_icon {
   fg__place_seed seed;
   fg__place_steps steps; /* of lines from that place */
@@ -39,8 +35,8 @@ typedef struct fg__place_search {
   double least_step;    /* of moves, lambda: below, an icon is no longer moved */
   fg__threads *threads; /* that share its work, borrowed; NULL: the caller alone */
   /* Working memory: */
-  fg__place_worker own, *beside; /* [beside_count] of threads beside the caller */
-  size_t beside_count;
+  fg__place_worker own, *helper; /* the caller's, and [helper_count] of other threads */
+  size_t helper_count;
   struct fg__place_visit *visit; /* [visit_count] */
   size_t visit_count;
   float *map, *smooth; /* a value a raster cell */
@@ -128,6 +124,11 @@ static inline double fg__place_reach(const fg__place_search *search)
 {
   return search->scale.reach / search->scale.lambda;
 }
+
+/* The penalties of a line: those of its length, and those for lines near it, given by
+ * their samples. */
+double fg__place_line_penalty(const fg__place_scale *scale, const fg__place_points *near,
+                              const fg__place_line *line);
 
 void fg__place_visits_clear(fg__place_search *search);
 

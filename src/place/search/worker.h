@@ -31,15 +31,13 @@ fg_status fg__place_gather(fg__place_worker *worker, const fg__place_box *box,
 fg_status fg__place_find_near(fg__place_worker *worker, const fg__place_box *box,
                               int except);
 
-/* The penalties of a line: those of its length, and those for lines near it, given by
- * their samples. */
-double fg__place_line_penalty(const fg__place_scale *scale, const fg__place_points *near,
-                              const fg__place_line *line);
-
 /* What line `to` in place of line `from` (NULL: none) adds to the weighted errors of the
  * diffusion reader. MEMORY. */
 fg_status fg__place_diffusion_cost(double *cost, fg__place_worker *worker,
                                    const fg__place_line *from, const fg__place_line *to);
+
+/* Records a worker's MEMORY; returns the status. */
+fg_status fg__place_check(const struct fg__place_search *search, fg_status status);
 
 /* Does thing n of several. */
 typedef fg_status fg__place_task(void *argument, fg__place_worker *worker, int n);
