@@ -272,7 +272,7 @@ def test_nothing_is_drawn_over_gaps(ax):
     polar = figure.add_subplot(projection="polar")
     theta, r = np.meshgrid(np.linspace(0.0, 2.0 * np.pi, 73), np.linspace(0.2, 1.0, 17))
     theta = (theta + 0.3 * r) % (2.0 * np.pi)
-    q = flowgrain.quiver(polar, theta, r, np.ones((17, 73)), np.zeros((17, 73)), arrows=12)
+    q = flowgrain.quiver(polar, theta, r, np.ones((17, 73)), np.zeros((17, 73)), arrows=60)
     assert any((np.abs(np.diff(line[:, 0] % (2.0 * np.pi))) > 6.0).any() for line in lines(q))
     plt.close(figure)
 
