@@ -37,12 +37,8 @@ static double rounded(double x)
 
 static void place_all(const placing *p, fg__polygons *polygons)
 {
-  const fg__page_box *frame = &p->page->frame;
-  for (size_t n = 0; n < polygons->point_count; ++n) {
-    double *at = polygons->point[n];
-    at[0] = frame->x0 + p->page->scale * (at[0] - p->plane->low[0]);
-    at[1] = frame->y1 - p->page->scale * (at[1] - p->plane->low[1]);
-  }
+  for (size_t n = 0; n < polygons->point_count; ++n)
+    fg__page_project(p->page, p->plane->low, polygons->point[n]);
 }
 
 static bool is_speck(const fg__polygons *polygons, size_t k)
@@ -245,9 +241,10 @@ static fg__page_box box_of(const fg__page *page, const fg__map_label *label,
 {
   const double size = inside_size * page->font_size, pad = 0.12 * size;
   const double half = 0.5 * fg__text_width(ruler, label->text, size, false) + pad;
-  const double x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]);
-  const double y = page->frame.y1 - page->scale * (label->at[1] - plane->low[1]);
-  return (fg__page_box){x - half, y - 0.5 * size - pad, x + half, y + 0.5 * size + pad};
+  double at[2] = {label->at[0], label->at[1]};
+  fg__page_project(page, plane->low, at);
+  return (fg__page_box){at[0] - half, at[1] - 0.5 * size - pad, at[0] + half,
+                        at[1] + 0.5 * size + pad};
 }
 
 static void add_label(fg__page *page, const fg__map_label *label, const fg__page_box *box)

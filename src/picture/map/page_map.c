@@ -6,8 +6,8 @@
 #include "picture/polygons.h"
 
 /* In units of the font size: from a line's end to its degrees; between two labels; the
- * height of a digit, and from its middle to its baseline. */
-static const double label_gap = 0.45, between = 0.5, digit = 0.72, half_digit = 0.36;
+ * height of a digit. */
+static const double label_gap = 0.45, between = 0.5, digit = 2.0 * FG__HALF_DIGIT;
 
 const fg__color fg__default_land = {0.925, 0.925, 0.918};
 const fg__color fg__default_missing = {0.894, 0.906, 0.925};
@@ -44,11 +44,10 @@ static double rim_left_of(const fg__page *page, const fg__plane *plane, const an
 {
   double left = a->x;
   for (size_t n = 0; n < plane->outline.point_count; ++n) {
-    const double *at = plane->outline.point[n];
-    const double x = page->frame.x0 + page->scale * (at[0] - plane->low[0]);
-    const double y = page->frame.y1 - page->scale * (at[1] - plane->low[1]);
-    if (fabs(y - a->y) < 0.55 * page->font_size && x < left)
-      left = x;
+    double at[2] = {plane->outline.point[n][0], plane->outline.point[n][1]};
+    fg__page_project(page, plane->low, at);
+    if (fabs(at[1] - a->y) < 0.55 * page->font_size)
+      left = fmin(left, at[0]);
   }
   return left;
 }
@@ -61,7 +60,7 @@ static fg__page_box box_of(const fg__page *page, const fg__plane *plane, anchor 
   const double away =
       label_gap * em + 0.5 * fabs(a.out[0]) * a.width + 0.5 * fabs(a.out[1]) * digit * em;
   const double x = a.x + away * a.out[0], y = a.y - away * a.out[1];
-  const double half[2] = {0.5 * a.width, half_digit * em};
+  const double half[2] = {0.5 * a.width, FG__HALF_DIGIT * em};
   return (fg__page_box){x - half[0], y - half[1], x + half[0], y + half[1]};
 }
 
@@ -76,14 +75,6 @@ static int text_near(const fg__page *page, int from, const fg__page_box *box)
       return k;
   }
   return -1;
-}
-
-static void grow(fg__margins *room, const fg__page_box *frame, const fg__page_box *box)
-{
-  room->left = fmax(room->left, frame->x0 - box->x0);
-  room->right = fmax(room->right, box->x1 - frame->x1);
-  room->top = fmax(room->top, frame->y0 - box->y0);
-  room->bottom = fmax(room->bottom, box->y1 - frame->y1);
 }
 
 static bool is_at(const fg__page_sides *sides, const fg__map_label *label)
@@ -137,8 +128,10 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
   int family_of[FG__PAGE_TEXTS];
   for (int k = 0; k < graticule->labels; ++k) {
     const fg__map_label *label = &graticule->label[k];
-    const anchor a = {.x = page->frame.x0 + page->scale * (label->at[0] - plane->low[0]),
-                      .y = page->frame.y1 - page->scale * (label->at[1] - plane->low[1]),
+    double at[2] = {label->at[0], label->at[1]};
+    fg__page_project(page, plane->low, at);
+    const anchor a = {.x = at[0],
+                      .y = at[1],
                       .out = {label->out[0], label->out[1]},
                       .width =
                           fg__text_width(ruler, label->text, page->font_size, false)};
@@ -170,7 +163,7 @@ static void place_labels(fg__page *page, fg__margins *room, const fg__page_plan 
     text->y = box.y1;
     text->box = (fg__page_box){box.x0, text->y - FG__TEXT_ASCENT * page->font_size,
                                box.x1, text->y + FG__TEXT_DESCENT * page->font_size};
-    grow(room, &page->frame, &text->box);
+    fg__margins_hold(room, &page->frame, &text->box);
   }
 }
 

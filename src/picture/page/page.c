@@ -25,9 +25,6 @@ static const double wide_domain = 1.3;
 /* Of the scale that a bare domain would have, what decorations must leave. */
 static const double least_share = 0.45;
 
-/* A caption cut to a few letters says nothing; in units of the font size. */
-static const double shortest_caption = 8.0;
-
 /* Of lengths that are sums of the same lengths, points. */
 static const double rounding = 1e-9;
 
@@ -51,59 +48,6 @@ double fg__page_font_size(const fg__page_plan *plan)
 static double extent(const fg__page_plan *plan, int k)
 {
   return plan->axis[k].high - plan->axis[k].low;
-}
-
-/* Lines of a caption, the title's first. */
-typedef struct caption {
-  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
-  int titles, count;
-  double title_size, size;
-} caption;
-
-/* Titles that are too long for their lines shrink, so far as they are still read. Whether
- * none does. */
-static bool break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
-                          double em, double width)
-{
-  const double title_size = 1.1 * em;
-  out->title_size = fg__page_fit_lines(out->line, FG__TITLE_LINES, &out->titles, ruler,
-                                       plan->title, title_size, true, width);
-  out->size =
-      fg__page_fit_lines(out->line + out->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
-                         &out->count, ruler, plan->subtitle, em, false, width);
-  out->count += out->titles;
-  return out->title_size == title_size && out->size == em;
-}
-
-void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                            cairo_t *ruler)
-{
-  const double em = page->font_size, pad = 0.6 * em;
-  double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
-  const double widest = page->width - 2.0 * pad;
-  caption lines;
-  if (widest < shortest_caption * em)
-    return;
-  if (!break_caption(&lines, plan, ruler, em, page->width - pad - start)) {
-    start = pad;
-    break_caption(&lines, plan, ruler, em, widest);
-  }
-  double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;
-  for (int k = lines.count - 1; k >= 0; --k) {
-    fg__page_text *added = fg__page_next_text(page, lines.line[k]);
-    if (!added)
-      return;
-    added->bold = k < lines.titles;
-    added->quiet = !added->bold;
-    added->size = added->bold ? lines.title_size : lines.size;
-    added->x = start;
-    added->y = y;
-    double wide = fg__text_width(ruler, lines.line[k], added->size, added->bold);
-    added->box = (fg__page_box){start, y - FG__TEXT_ASCENT * added->size, start + wide,
-                                y + FG__TEXT_DESCENT * added->size};
-    y -= 1.3 * added->size;
-    room->top = page->frame.y0 - added->box.y0;
-  }
 }
 
 /* Page and frame for the given margins, and gaps between panels; false when nothing is

@@ -125,16 +125,28 @@ typedef struct fg__margins {
  * there are too many. */
 fg__page_text *fg__page_next_text(fg__page *page, const char *text);
 
-/* Adds a text with its baseline at y, aligned at x. Returns its width. */
-double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, double x,
-                         double y, fg__align align);
-/* The same, reading upwards: the baseline is the vertical line at x, the text's middle at
- * y. */
-double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
-                                 double x, double y);
-/* Gives the text just added, which does not end at its x, another size; where it begins,
- * or its middle, stays. */
-void fg__page_resize_text(fg__page *page, cairo_t *ruler, double size);
+/* Where the page, whose frame's lower left corner is `low` in the field's coordinates,
+ * has a point. */
+void fg__page_project(const fg__page *page, const double low[2], double point[2]);
+
+/* Lets the room grow so that it holds a box. */
+void fg__margins_hold(fg__margins *room, const fg__page_box *frame,
+                      const fg__page_box *box);
+
+/* A text that is to be placed. */
+typedef struct fg__words {
+  const char *text;
+  double size; /* points; 0: the page's font size */
+  bool bold, quiet, upwards;
+  fg__align align;
+} fg__words;
+
+/* Adds a text with its baseline at y, aligned at x; upwards the baseline is the vertical
+ * line at x, and the text aligned at y. The room grows to hold it. Returns the text;
+ * where there are too many, an empty one. */
+const fg__page_text *fg__page_add_text(fg__page *page, fg__margins *room, cairo_t *ruler,
+                                       const fg__words *words, double x, double y);
+
 /* Breaks a text at spaces into at most `limit` lines of a width; the last takes the rest.
  * Lines that are too long end with an ellipsis. Returns whether none did. */
 bool fg__page_break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
@@ -151,6 +163,25 @@ void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y
 /* Ticks of an axis of `length` points whose labels keep a distance. */
 void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *ruler,
                            double length, double font_size, bool upright);
+
+/* In units of the font size: from a tick's end to its number, and from the middle of a
+ * digit to its baseline. */
+#define FG__TICK_GAP 0.3
+#define FG__HALF_DIGIT 0.36
+
+/* The line of an axis or a key along which its ticks stand, points: to the right, with
+ * ticks below, or upwards, with ticks to the right (side 1) or left (-1). */
+typedef struct fg__scale {
+  const fg__tick_axis *axis;
+  double from[2], to[2]; /* where the axis is low and high */
+  int side;              /* 0: below */
+  double tick;           /* its length, in units of the font size */
+  bool numbers;          /* are written */
+} fg__scale;
+
+/* Adds ticks and numbers, which keep a distance; the room grows to hold them. */
+void fg__page_add_ticks(fg__page *page, fg__margins *room, cairo_t *ruler,
+                        const fg__scale *scale);
 
 /* Sides of a frame. */
 typedef struct fg__page_sides {

@@ -3,12 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the font size: a tick's length; from its end to its label; between texts
- * side by side; from the middle of a digit to its baseline. */
-static const double tick_length = 0.35;
-static const double label_gap = 0.3;
-static const double word_gap = 0.8;
-static const double half_digit = 0.36;
+/* In units of the font size: a tick's length, and between texts side by side. */
+static const double tick_length = 0.35, word_gap = 0.8;
 
 /* Distance of ticks in units of the font size that reads easily; what short axes with
  * fewer than FEW_TICKS ticks may go down to; and the most ticks. */
@@ -82,64 +78,14 @@ void fg__page_choose_ticks(fg__ticks *out, const fg__tick_axis *axis, cairo_t *r
   choose_two(out, axis, ruler, length, font_size, upright, step);
 }
 
-static void place_x(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                    bool numbers, cairo_t *ruler)
-{
-  const double em = page->font_size;
-  const fg__page_box *frame = &page->frame;
-  fg__ticks ticks;
-  fg__page_choose_ticks(&ticks, &plan->axis[0], ruler, frame->x1 - frame->x0, em, false);
-  double baseline = frame->y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
-  for (int k = 0; k < ticks.count; ++k) {
-    double x = frame->x0 + page->scale * (ticks.position[k] - plan->axis[0].low);
-    fg__page_add_line(page, x, frame->y1, x, frame->y1 + tick_length * em);
-    if (!numbers)
-      continue;
-    double width =
-        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_MIDDLE);
-    room->left = fmax(room->left, frame->x0 - x + 0.5 * width);
-    room->right = fmax(room->right, x + 0.5 * width - frame->x1);
-  }
-  if (ticks.count)
-    room->bottom =
-        numbers ? baseline + FG__TEXT_DESCENT * em - frame->y1 : tick_length * em;
-}
-
-static void place_y(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                    bool numbers, cairo_t *ruler)
-{
-  const double em = page->font_size;
-  const fg__page_box *frame = &page->frame;
-  fg__ticks ticks;
-  fg__page_choose_ticks(&ticks, &plan->axis[1], ruler, frame->y1 - frame->y0, em, true);
-  for (int k = 0; k < ticks.count; ++k) {
-    double y = frame->y1 - page->scale * (ticks.position[k] - plan->axis[1].low);
-    fg__page_add_line(page, frame->x0 - tick_length * em, y, frame->x0, y);
-    room->left = fmax(room->left, tick_length * em);
-    if (!numbers)
-      continue;
-    double x = frame->x0 - (tick_length + label_gap) * em;
-    double baseline = y + half_digit * em;
-    double width =
-        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_END);
-    room->left = fmax(room->left, frame->x0 - x + width);
-    room->top = fmax(room->top, frame->y0 - baseline + FG__TEXT_ASCENT * em);
-    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - frame->y1);
-  }
-}
-
 static void place_x_label(fg__page *page, fg__margins *room, const char *label,
                           cairo_t *ruler)
 {
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
-  double middle = 0.5 * (frame->x0 + frame->x1);
-  double baseline = frame->y1 + room->bottom + (0.15 + FG__TEXT_ASCENT) * em;
-  double width =
-      fg__page_add_text(page, ruler, label, middle, baseline, FG__ALIGN_MIDDLE);
-  room->bottom = baseline + FG__TEXT_DESCENT * em - frame->y1;
-  room->left = fmax(room->left, frame->x0 - middle + 0.5 * width);
-  room->right = fmax(room->right, middle + 0.5 * width - frame->x1);
+  const fg__words words = {.text = label, .align = FG__ALIGN_MIDDLE};
+  fg__page_add_text(page, room, ruler, &words, 0.5 * (frame->x0 + frame->x1),
+                    frame->y1 + room->bottom + (0.15 + FG__TEXT_ASCENT) * em);
 }
 
 /* Upwards beside the tick labels; a label of a letter or two, or one that is longer than
@@ -149,28 +95,34 @@ static void place_y_label(fg__page *page, fg__margins *room, const char *label,
 {
   const double em = page->font_size;
   const fg__page_box *frame = &page->frame;
-  double middle = 0.5 * (frame->y0 + frame->y1);
-  double width = fg__text_width(ruler, label, em, false);
-  if (width <= 2.0 * em || width > frame->y1 - frame->y0) {
-    double x = frame->x0 - room->left - 0.6 * em;
-    double baseline = middle + half_digit * em;
-    fg__page_add_text(page, ruler, label, x, baseline, FG__ALIGN_END);
-    room->left = frame->x0 - x + width;
-    room->top = fmax(room->top, frame->y0 - baseline + FG__TEXT_ASCENT * em);
-    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - frame->y1);
-    return;
-  }
-  double x = frame->x0 - room->left - (0.3 + FG__TEXT_DESCENT) * em;
-  fg__page_add_text_upwards(page, ruler, label, x, middle);
-  room->left = frame->x0 - x + FG__TEXT_ASCENT * em;
+  const double middle = 0.5 * (frame->y0 + frame->y1), left = frame->x0 - room->left;
+  const double width = fg__text_width(ruler, label, em, false);
+  const bool level = width <= 2.0 * em || width > frame->y1 - frame->y0;
+  const fg__words words = {.text = label,
+                           .upwards = !level,
+                           .align = level ? FG__ALIGN_END : FG__ALIGN_MIDDLE};
+  fg__page_add_text(page, room, ruler, &words,
+                    left - (level ? 0.6 : 0.3 + FG__TEXT_DESCENT) * em,
+                    level ? middle + FG__HALF_DIGIT * em : middle);
 }
 
 void fg__page_place_axes(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                          const fg__page_parts *parts, cairo_t *ruler)
 {
-  place_x(page, room, plan, parts->sides.bottom, ruler);
-  place_y(page, room, plan, parts->sides.left, ruler);
-  room->bottom = fmax(room->bottom, 0.0);
+  const fg__page_box *frame = &page->frame;
+  const fg__scale scales[] = {{.axis = &plan->axis[0],
+                               .from = {frame->x0, frame->y1},
+                               .to = {frame->x1, frame->y1},
+                               .tick = tick_length,
+                               .numbers = parts->sides.bottom},
+                              {.axis = &plan->axis[1],
+                               .from = {frame->x0, frame->y1},
+                               .to = {frame->x0, frame->y0},
+                               .side = -1,
+                               .tick = tick_length,
+                               .numbers = parts->sides.left}};
+  for (int k = 0; k < 2; ++k)
+    fg__page_add_ticks(page, room, ruler, &scales[k]);
   if (!parts->axis_labels)
     return;
   if (plan->axis[1].label[0] && parts->sides.left)

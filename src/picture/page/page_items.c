@@ -1,6 +1,7 @@
 /* The texts and lines of a page. */
 #include "picture/page/page.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,59 +15,83 @@ fg__page_text *fg__page_next_text(fg__page *page, const char *text)
   return added;
 }
 
-static double start_of(double x, double width, fg__align align)
+void fg__page_project(const fg__page *page, const double low[2], double point[2])
 {
-  return align == FG__ALIGN_START    ? x
-         : align == FG__ALIGN_MIDDLE ? x - 0.5 * width
-                                     : x - width;
+  point[0] = page->frame.x0 + page->scale * (point[0] - low[0]);
+  point[1] = page->frame.y1 - page->scale * (point[1] - low[1]);
 }
 
-double fg__page_add_text(fg__page *page, cairo_t *ruler, const char *text, double x,
-                         double y, fg__align align)
+void fg__margins_hold(fg__margins *room, const fg__page_box *frame,
+                      const fg__page_box *box)
 {
-  fg__page_text *added = fg__page_next_text(page, text);
+  room->left = fmax(room->left, frame->x0 - box->x0);
+  room->right = fmax(room->right, box->x1 - frame->x1);
+  room->top = fmax(room->top, frame->y0 - box->y0);
+  room->bottom = fmax(room->bottom, box->y1 - frame->y1);
+}
+
+static double start_of(double at, double width, fg__align align)
+{
+  return align == FG__ALIGN_START    ? at
+         : align == FG__ALIGN_MIDDLE ? at - 0.5 * width
+                                     : at - width;
+}
+
+static const fg__page_text unplaced = {.size = 0.0};
+
+const fg__page_text *fg__page_add_text(fg__page *page, fg__margins *room, cairo_t *ruler,
+                                       const fg__words *words, double x, double y)
+{
+  fg__page_text *added = fg__page_next_text(page, words->text);
   if (!added)
-    return 0.0;
-  double width = fg__text_width(ruler, added->text, added->size, false);
-  added->align = align;
-  added->x = start_of(x, width, align);
-  added->y = y;
-  added->box = (fg__page_box){added->x, y - FG__TEXT_ASCENT * added->size,
-                              added->x + width, y + FG__TEXT_DESCENT * added->size};
-  return width;
+    return &unplaced;
+  const double size = words->size > 0.0 ? words->size : page->font_size;
+  const double width = fg__text_width(ruler, added->text, size, words->bold);
+  const double above = FG__TEXT_ASCENT * size, below = FG__TEXT_DESCENT * size;
+  added->size = size;
+  added->bold = words->bold;
+  added->quiet = words->quiet;
+  added->upwards = words->upwards;
+  added->align = words->align;
+  added->x = words->upwards ? x : start_of(x, width, words->align);
+  added->y = words->upwards ? y + width + start_of(0.0, width, words->align) : y;
+  added->box =
+      words->upwards
+          ? (fg__page_box){x - above, added->y - width, x + below, added->y}
+          : (fg__page_box){added->x, y - above, added->x + width, y + below};
+  fg__margins_hold(room, &page->frame, &added->box);
+  return added;
 }
 
-double fg__page_add_text_upwards(fg__page *page, cairo_t *ruler, const char *text,
-                                 double x, double y)
+void fg__page_add_ticks(fg__page *page, fg__margins *room, cairo_t *ruler,
+                        const fg__scale *scale)
 {
-  fg__page_text *added = fg__page_next_text(page, text);
-  if (!added)
-    return 0.0;
-  double width = fg__text_width(ruler, added->text, added->size, false);
-  added->upwards = true;
-  added->align = FG__ALIGN_MIDDLE;
-  added->x = x;
-  added->y = y + 0.5 * width;
-  added->box = (fg__page_box){x - FG__TEXT_ASCENT * added->size, added->y - width,
-                              x + FG__TEXT_DESCENT * added->size, added->y};
-  return width;
-}
-
-void fg__page_resize_text(fg__page *page, cairo_t *ruler, double size)
-{
-  fg__page_text *text = &page->text[page->text_count - 1];
-  const double width = fg__text_width(ruler, text->text, size, false);
-  text->size = size;
-  if (text->upwards) {
-    text->y = 0.5 * (text->box.y0 + text->box.y1 + width);
-    text->box = (fg__page_box){text->x - FG__TEXT_ASCENT * size, text->y - width,
-                               text->x + FG__TEXT_DESCENT * size, text->y};
-    return;
+  const double em = page->font_size, length = scale->tick * em;
+  const double *from = scale->from, *to = scale->to;
+  const bool upright = scale->side != 0;
+  const double gap = length + FG__TICK_GAP * em;
+  const fg__tick_axis *axis = scale->axis;
+  fg__ticks ticks;
+  fg__page_choose_ticks(&ticks, axis, ruler,
+                        upright ? from[1] - to[1] : to[0] - from[0], em, upright);
+  for (int k = 0; k < ticks.count; ++k) {
+    const double share = (ticks.position[k] - axis->low) / (axis->high - axis->low);
+    const double x = from[0] + share * (to[0] - from[0]);
+    const double y = from[1] + share * (to[1] - from[1]);
+    const double end[2] = {upright ? x + scale->side * length : x,
+                           upright ? y : y + length};
+    fg__page_add_line(page, x, y, end[0], end[1]);
+    fg__margins_hold(room, &page->frame, &(fg__page_box){x, y, end[0], end[1]});
+    if (!scale->numbers)
+      continue;
+    const fg__words number = {.text = ticks.text[k],
+                              .align = !upright           ? FG__ALIGN_MIDDLE
+                                       : scale->side < 0 ? FG__ALIGN_END
+                                                         : FG__ALIGN_START};
+    fg__page_add_text(page, room, ruler, &number, upright ? x + scale->side * gap : x,
+                      upright ? y + FG__HALF_DIGIT * em
+                              : y + gap + FG__TEXT_ASCENT * em);
   }
-  if (text->align == FG__ALIGN_MIDDLE)
-    text->x = 0.5 * (text->box.x0 + text->box.x1 - width);
-  text->box = (fg__page_box){text->x, text->y - FG__TEXT_ASCENT * size, text->x + width,
-                             text->y + FG__TEXT_DESCENT * size};
 }
 
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1)

@@ -5,8 +5,6 @@
 /* In units of the font size. */
 static const double bar_thickness = 0.85;
 static const double tick_length = 0.3;
-static const double label_gap = 0.3;
-static const double half_digit = 0.36;
 static const double line_height = 1.25;
 static const double key_gap = 1.4;      /* between the frame's labels and a key */
 static const double shortest_bar = 4.5; /* two ticks and their labels */
@@ -67,11 +65,6 @@ static bool measure_size_key(size_key *out, const fg__page *page,
   return true;
 }
 
-static void make_quiet(fg__page *page)
-{
-  page->text[page->text_count - 1].quiet = true;
-}
-
 /* The colour key's label in lines. The default one is shortened to its unit where it is
  * longer than its room; one given by the options is broken into lines. */
 typedef struct bar_label {
@@ -120,52 +113,54 @@ static void add_points(fg__page *page, const fg__page_plan *plan, double *start,
 static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *plan,
                       cairo_t *ruler, const bar_place *at, double y0)
 {
-  const double em = page->font_size;
-  const fg__tick_axis *speed = &plan->speed;
+  const double em = page->font_size, y1 = y0 + bar_thickness * em;
+  double x0 = at->start, x1 = at->end;
+  bar_label label;
   page->has_color_key = true;
   page->color_key_upright = false;
-  double x0 = at->start, x1 = at->end;
   add_points(page, plan, &x0, &x1);
-  const double length = x1 - x0;
-  page->color_key = (fg__page_box){x0, y0, x1, y0 + bar_thickness * em};
-  fg__ticks ticks;
-  fg__page_choose_ticks(&ticks, speed, ruler, length, em, false);
-  double y1 = page->color_key.y1;
-  double baseline = y1 + (tick_length + label_gap + FG__TEXT_ASCENT) * em;
-  for (int k = 0; k < ticks.count; ++k) {
-    double share = (ticks.position[k] - speed->low) / (speed->high - speed->low);
-    double x = x0 + share * length;
-    fg__page_add_line(page, x, y1, x, y1 + tick_length * em);
-    double width =
-        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_MIDDLE);
-    room->left = fmax(room->left, page->frame.x0 - x + 0.5 * width);
-    room->right = fmax(room->right, x + 0.5 * width - page->frame.x1);
-  }
-  bar_label label;
+  page->color_key = (fg__page_box){x0, y0, x1, y1};
+  const fg__scale scale = {.axis = &plan->speed,
+                           .from = {x0, y1},
+                           .to = {x1, y1},
+                           .tick = tick_length,
+                           .numbers = true};
+  fg__page_add_ticks(page, room, ruler, &scale);
+  double baseline = y1 + (tick_length + FG__TICK_GAP + FG__TEXT_ASCENT) * em;
   break_label(&label, plan, ruler, em, label_room(at));
   for (int k = 0; k < label.count; ++k) {
+    const fg__words words = {
+        .text = label.line[k], .size = label.size, .align = FG__ALIGN_MIDDLE};
     baseline += line_height * (k ? label.size : em);
-    fg__page_add_text(page, ruler, label.line[k], x0 + 0.5 * length, baseline,
-                      FG__ALIGN_MIDDLE);
-    fg__page_resize_text(page, ruler, label.size);
+    fg__page_add_text(page, room, ruler, &words, 0.5 * (x0 + x1), baseline);
   }
-  room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
+}
+
+/* The reference arrow from a point on, and below it its length and what it shows. */
+static void add_size(fg__page *page, fg__margins *room, const size_key *key,
+                     cairo_t *ruler, const double tail[2], const double text[2],
+                     fg__align align)
+{
+  const fg__words words[] = {{.text = key->text, .align = align},
+                             {.text = size_words, .align = align, .quiet = true}};
+  page->has_size_key = true;
+  page->size_key[0] = tail[0];
+  page->size_key[1] = tail[1];
+  page->size_key_length = key->length;
+  for (int k = 0; k < 2; ++k)
+    fg__page_add_text(page, room, ruler, &words[k], text[0],
+                      text[1] + k * line_height * page->font_size);
 }
 
 static void size_below(fg__page *page, fg__margins *room, const size_key *key,
                        cairo_t *ruler, double middle, double y0)
 {
   const double em = page->font_size;
-  page->has_size_key = true;
-  page->size_key[0] = middle - 0.5 * key->length;
-  page->size_key[1] = y0 + 0.5 * bar_thickness * em;
-  page->size_key_length = key->length;
-  double baseline = y0 + (bar_thickness + tick_length + label_gap + FG__TEXT_ASCENT) * em;
-  fg__page_add_text(page, ruler, key->text, middle, baseline, FG__ALIGN_MIDDLE);
-  baseline += line_height * em;
-  fg__page_add_text(page, ruler, size_words, middle, baseline, FG__ALIGN_MIDDLE);
-  make_quiet(page);
-  room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
+  const double tail[2] = {middle - 0.5 * key->length, y0 + 0.5 * bar_thickness * em};
+  const double text[2] = {
+      middle,
+      y0 + (bar_thickness + tick_length + FG__TICK_GAP + FG__TEXT_ASCENT) * em};
+  add_size(page, room, key, ruler, tail, text, FG__ALIGN_MIDDLE);
 }
 
 /* One row under the frame: the bar at its left end, a short one in its middle or as near
@@ -188,9 +183,9 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
   }
   const double length = fmin(bar_limit(page, plan, wide), room_for_bar);
   if (has_size) {
-    double middle = frame->x1 - 0.5 * key.width;
-    size_below(page, room, &key, ruler, middle, y0);
-    room->left = fmax(room->left, frame->x0 - middle + 0.5 * key.width);
+    const double x0 = frame->x1 - key.width;
+    size_below(page, room, &key, ruler, frame->x1 - 0.5 * key.width, y0);
+    room->left = fmax(room->left, frame->x0 - x0);
   }
   if (parts->color_key && length >= shortest_bar * em) {
     const double indent =
@@ -202,58 +197,45 @@ static void place_below(fg__page *page, fg__margins *room, const fg__page_plan *
   }
 }
 
-static double bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
-                         cairo_t *ruler, const bar_place *at, double x0)
+static void bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *plan,
+                       cairo_t *ruler, const bar_place *at, double x0)
 {
-  const double em = page->font_size;
-  const fg__tick_axis *speed = &plan->speed;
+  const double em = page->font_size, x1 = x0 + bar_thickness * em;
+  double above = -at->start, below = -at->end;
+  bar_label label;
   page->has_color_key = true;
   page->color_key_upright = true;
-  double above = -at->start, below = -at->end;
   add_points(page, plan, &below, &above);
-  const double y0 = -above, y1 = -below;
-  page->color_key = (fg__page_box){x0, y0, x0 + bar_thickness * em, y1};
-  fg__ticks ticks;
-  fg__page_choose_ticks(&ticks, speed, ruler, y1 - y0, em, true);
-  double right = page->color_key.x1;
-  double end = right;
-  for (int k = 0; k < ticks.count; ++k) {
-    double share = (ticks.position[k] - speed->low) / (speed->high - speed->low);
-    double y = y1 - share * (y1 - y0);
-    fg__page_add_line(page, right, y, right + tick_length * em, y);
-    double x = right + (tick_length + label_gap) * em;
-    double baseline = y + half_digit * em;
-    double width =
-        fg__page_add_text(page, ruler, ticks.text[k], x, baseline, FG__ALIGN_START);
-    end = fmax(end, x + width);
-    room->top = fmax(room->top, page->frame.y0 - baseline + FG__TEXT_ASCENT * em);
-    room->bottom = fmax(room->bottom, baseline + FG__TEXT_DESCENT * em - page->frame.y1);
-  }
-  bar_label label;
+  page->color_key = (fg__page_box){x0, -above, x1, -below};
+  fg__margins_hold(room, &page->frame, &page->color_key);
+  const fg__scale scale = {.axis = &plan->speed,
+                           .from = {x1, -below},
+                           .to = {x1, -above},
+                           .side = 1,
+                           .tick = tick_length,
+                           .numbers = true};
+  fg__page_add_ticks(page, room, ruler, &scale);
+  double x = page->frame.x1 + room->right + 0.35 * em;
   break_label(&label, plan, ruler, em, label_room(at));
-  for (int k = 0; k < label.count; ++k) {
-    double x = end + (k ? 0.0 : 0.35 * em) + FG__TEXT_ASCENT * em;
-    fg__page_add_text_upwards(page, ruler, label.line[k], x, 0.5 * (y0 + y1));
-    fg__page_resize_text(page, ruler, label.size);
-    end = x + FG__TEXT_DESCENT * em;
+  for (int k = 0; k < label.count; ++k, x += FG__TEXT_DESCENT * em) {
+    const fg__words words = {.text = label.line[k],
+                             .size = label.size,
+                             .upwards = true,
+                             .align = FG__ALIGN_MIDDLE};
+    x += FG__TEXT_ASCENT * em;
+    fg__page_add_text(page, room, ruler, &words, x, -0.5 * (above + below));
   }
-  return end;
 }
 
 /* Arrow and words in a column whose lower end is at y1. */
-static void size_beside(fg__page *page, const size_key *key, cairo_t *ruler, double x0,
-                        double y1)
+static void size_beside(fg__page *page, fg__margins *room, const size_key *key,
+                        cairo_t *ruler, double x0, double y1)
 {
   const double em = page->font_size;
-  page->has_size_key = true;
-  double baseline = y1 - FG__TEXT_DESCENT * em;
-  fg__page_add_text(page, ruler, size_words, x0, baseline, FG__ALIGN_START);
-  make_quiet(page);
-  baseline -= line_height * em;
-  fg__page_add_text(page, ruler, key->text, x0, baseline, FG__ALIGN_START);
-  page->size_key[0] = x0;
-  page->size_key[1] = baseline - (FG__TEXT_ASCENT + 0.6) * em;
-  page->size_key_length = key->length;
+  const double text[2] = {x0, y1 - (FG__TEXT_DESCENT + line_height) * em};
+  const double tail[2] = {x0, text[1] - (FG__TEXT_ASCENT + 0.6) * em};
+  add_size(page, room, key, ruler, tail, text, FG__ALIGN_START);
+  room->right = fmax(room->right, x0 + key->length - page->frame.x1);
 }
 
 /* Whether degrees or numbers stand to the right of the frame. */
@@ -276,16 +258,11 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   const double gap = (has_words_at_right(page) ? key_gap : 0.5) * em;
   double x0 = frame->x1 + fmax(room->right + gap, key_gap * em);
   double high = frame->y1 - frame->y0;
-  double end = x0;
   size_key key;
   bool has_size =
       parts->size_key && high >= size_height && measure_size_key(&key, page, plan, ruler);
   if (has_size && parts->color_key && high - size_height < shortest_bar * em)
     has_size = false;
-  if (has_size) {
-    size_beside(page, &key, ruler, x0, frame->y1);
-    end = x0 + key.width;
-  }
   double y0 = frame->y0;
   const double y1 = has_size ? frame->y1 - size_height : frame->y1;
   const double length = fmin(bar_limit(page, plan, high), y1 - y0);
@@ -294,9 +271,9 @@ static void place_beside(fg__page *page, fg__margins *room, const fg__page_plan 
   const bar_place at = {y0, y0 + length, plan->short_key ? frame->y0 : y0,
                         plan->short_key ? y1 : y0 + length};
   if (parts->color_key && length >= shortest_bar * em)
-    end = fmax(end, bar_beside(page, room, plan, ruler, &at, x0));
-  if (end > x0)
-    room->right = end - frame->x1;
+    bar_beside(page, room, plan, ruler, &at, x0);
+  if (has_size)
+    size_beside(page, room, &key, ruler, x0, frame->y1);
 }
 
 void fg__page_place_keys(fg__page *page, fg__margins *room, const fg__page_plan *plan,

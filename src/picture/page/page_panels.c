@@ -81,23 +81,15 @@ static fg__page_sides outer_sides(const fg__page_plan *plan, int k)
                           .top = k < plan->columns};
 }
 
-static void take_up(fg__margins *out, const fg__page_box *frame, const fg__page_box *box)
-{
-  out->left = fmax(out->left, frame->x0 - box->x0);
-  out->right = fmax(out->right, box->x1 - frame->x1);
-  out->top = fmax(out->top, frame->y0 - box->y0);
-  out->bottom = fmax(out->bottom, box->y1 - frame->y1);
-}
-
 /* What the texts and ticks of a panel take up round its frame. */
 static fg__margins taken(const fg__page *panel)
 {
   fg__margins out = {0.0, 0.0, 0.0, 0.0};
   for (int k = 0; k < panel->text_count; ++k)
-    take_up(&out, &panel->frame, &panel->text[k].box);
+    fg__margins_hold(&out, &panel->frame, &panel->text[k].box);
   for (int k = 0; k < panel->line_count; ++k) {
     const fg__page_line *line = &panel->line[k];
-    take_up(&out, &panel->frame, &(fg__page_box){line->x0, line->y0, line->x1, line->y1});
+    fg__margins_hold(&out, &panel->frame, &(fg__page_box){line->x0, line->y0, line->x1, line->y1});
   }
   return out;
 }
@@ -138,6 +130,7 @@ static void place_labels(fg__page *row, int count, double top, int limit, double
   char line[MOST_LABEL_LINES][FG__PAGE_TEXT_BYTES];
   const double width = row->frame.x1 - row->frame.x0;
   const double em = row->font_size, step = 1.25 * size;
+  fg__margins room = {0}; /* found from all texts of the panel */
   int lines, most = 1;
   for (int k = 0; k < count; ++k) {
     fg__page_break_lines(line, limit, &lines, ruler, label[k], size, false, width);
@@ -148,8 +141,8 @@ static void place_labels(fg__page *row, int count, double top, int limit, double
     y -= (most - 1) * step;
     fg__page_break_lines(line, limit, &lines, ruler, label[k], size, false, width);
     for (int n = 0; n < lines; ++n, y += step) {
-      fg__page_add_text(&row[k], ruler, line[n], row[k].frame.x0, y, FG__ALIGN_START);
-      fg__page_resize_text(&row[k], ruler, size);
+      const fg__words words = {.text = line[n], .size = size};
+      fg__page_add_text(&row[k], &room, ruler, &words, row[k].frame.x0, y);
     }
   }
 }

@@ -70,23 +70,16 @@ void fg__scene_shown(double low[2], double high[2], const fg_field *field)
   }
 }
 
-/* From coordinates to the page: y turns round. */
+/* From coordinates to the page. */
 typedef struct placement {
-  double low[2];
-  double scale;
-  const fg__page_box *frame;
+  const fg__page *page;
+  const double *low; /* of its frame */
 } placement;
-
-static void place(const placement *p, double point[2])
-{
-  point[0] = p->frame->x0 + p->scale * (point[0] - p->low[0]);
-  point[1] = p->frame->y1 - p->scale * (point[1] - p->low[1]);
-}
 
 static void place_all(const placement *p, fg__polygons *polygons)
 {
   for (size_t n = 0; n < polygons->point_count; ++n)
-    place(p, polygons->point[n]);
+    fg__page_project(p->page, p->low, polygons->point[n]);
 }
 
 /* Cells of a mask along one axis: their edges, and the data cell that each shows. */
@@ -188,7 +181,7 @@ fg_status fg__scene_mask(fg__polygons *out, fg_context *context, const fg__page 
                          const fg_field *field, const double low[2],
                          const fg__polygons *outline)
 {
-  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
+  const placement p = {page, low};
   fg_status status = make_mask(out, context, page, field, outline);
   if (status)
     return status;
@@ -207,7 +200,7 @@ static bool add_outline(fg__polygons *out, const fg_icon *icon, const placement 
   bool good = fg__polygons_begin(out);
   for (int n = 0; good && n < count; ++n) {
     double point[2] = {vertices[n][0] + offset[0], vertices[n][1] + offset[1]};
-    place(p, point);
+    fg__page_project(p->page, p->low, point);
     good = fg__polygons_add(out, point);
   }
   free(vertices);
@@ -386,20 +379,22 @@ fg_status fg__scene_reference(fg__polygons *out, fg_context *context,
   if (!median->shape || !(median->length > 0.0) || !page->has_size_key)
     return FG_STATUS_OK;
   const fg_icon *typical = median->shape;
-  double share = page->size_key_length / fg__icon_length(typical);
+  const double length = page->size_key_length / page->scale;
+  double share = length / fg__icon_length(typical);
   double points[POINTS][3] = {{0}};
   for (int n = 0; n < POINTS; ++n)
-    points[n][0] = page->size_key_length * n / (POINTS - 1);
+    points[n][0] = length * n / (POINTS - 1);
   const fg_icon icon = {.point_count = POINTS,
                         .points = (const double(*)[3])points,
                         .width = typical->width * share,
                         .tail_width = typical->tail_width * share,
                         .head_length = typical->head_length * share,
                         .head_width = typical->head_width * share};
-  const fg__page_box at = {page->size_key[0], 0.0, 0.0, page->size_key[1]};
-  const placement p = {{0.0, 0.0}, 1.0, &at};
-  static const double nowhere[2] = {0.0, 0.0};
-  return add_outline(out, &icon, &p, nowhere)
+  static const double origin[2] = {0.0, 0.0};
+  const placement p = {page, origin};
+  const double tail[2] = {(page->size_key[0] - page->frame.x0) / page->scale,
+                          (page->frame.y1 - page->size_key[1]) / page->scale};
+  return add_outline(out, &icon, &p, tail)
              ? FG_STATUS_OK
              : fg__fail_memory(context, "the reference arrow", sizeof points);
 }
@@ -412,7 +407,7 @@ fg_status fg__scene_create(fg__scene *out, fg_context *context, const fg__page *
 {
   const fg_field_arrays *grid = fg_field_contents(field);
   *out = (fg__scene){.arrow_color = NULL};
-  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
+  const placement p = {page, low};
   fg_status status = FG_STATUS_OK;
   if (density)
     status = fg__contour_positive(&out->tint, context, density);
@@ -434,7 +429,7 @@ static bool add_line(fg__polygons *out, const placement *p, const double (*point
   bool good = fg__polygons_begin(out);
   for (int n = 0; good && n < count; ++n) {
     double point[2] = {points[n][0] + offset[0], points[n][1] + offset[1]};
-    place(p, point);
+    fg__page_project(p->page, p->low, point);
     good = fg__polygons_add(out, point);
   }
   return good;
@@ -445,7 +440,7 @@ fg_status fg__scene_add_skeletons(fg__scene *scene, fg_context *context,
                                   const double low[2], const double high[2],
                                   const fg_icons *icons, bool spines)
 {
-  const placement p = {{low[0], low[1]}, page->scale, &page->frame};
+  const placement p = {page, low};
   for (int n = 0; n < fg_icons_count(icons); ++n) {
     const fg_icon *icon = fg_icons_at(icons, n);
     int x[2], y[2];

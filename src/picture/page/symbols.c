@@ -126,8 +126,10 @@ void fg__symbols_draw(cairo_t *cairo, const fg__page *page, const double low[2],
     fg__symbol symbol = symbol_of(point);
     const double length = page->scale * fg_critical_points_length(points);
     symbol.radius = fmin(fmax(SHARE * length, SMALLEST), LARGEST);
-    symbol.x = frame->x0 + page->scale * (point->at[0] - low[0]);
-    symbol.y = frame->y1 - page->scale * (point->at[1] - low[1]);
+    double at[2] = {point->at[0], point->at[1]};
+    fg__page_project(page, low, at);
+    symbol.x = at[0];
+    symbol.y = at[1];
     const double reach = ARM * symbol.radius;
     if (symbol.x >= frame->x0 + reach && symbol.x <= frame->x1 - reach &&
         symbol.y >= frame->y0 + reach && symbol.y <= frame->y1 - reach)
@@ -172,11 +174,9 @@ void fg__page_place_symbols(fg__page *page, fg__margins *room, const fg__page_pl
     *symbol = plan->symbol[k];
     symbol->radius = KEY_RADIUS * em;
     symbol->x = page->frame.x0 + x + symbol->radius;
-    symbol->y = y - 0.36 * em;
-    fg__page_add_text(page, ruler, KEY[k].name, page->frame.x0 + x + indent, y,
-                      FG__ALIGN_START);
+    symbol->y = y - FG__HALF_DIGIT * em;
+    fg__page_add_text(page, room, ruler, &(fg__words){.text = KEY[k].name},
+                      page->frame.x0 + x + indent, y);
     x += width[k];
-    room->right = fmax(room->right, x - BETWEEN * em - wide);
   }
-  room->bottom = fmax(room->bottom, y + FG__TEXT_DESCENT * em - page->frame.y1);
 }
