@@ -161,12 +161,10 @@ static void add_box(cairo_t *cairo, const fg__page_box *box)
   cairo_rectangle(cairo, box->x0, box->y0, box->x1 - box->x0, box->y1 - box->y0);
 }
 
-/* The colour key's outline, with a point at an end beyond which there are speeds. */
-static void add_color_key(cairo_t *cairo, const fg__page *page)
+/* A key's outline, with a point at an end beyond which there are speeds. */
+static void add_key(cairo_t *cairo, const fg__page_box *key, bool upright,
+                    const double point[2])
 {
-  const fg__page_box *key = &page->color_key;
-  bool upright = page->color_key_upright;
-  const double *point = page->color_key_point;
   double middle = upright ? 0.5 * (key->x0 + key->x1) : 0.5 * (key->y0 + key->y1);
   cairo_move_to(cairo, key->x0, key->y0);
   if (upright && point[1] > 0.0)
@@ -183,11 +181,10 @@ static void add_color_key(cairo_t *cairo, const fg__page *page)
   cairo_close_path(cairo);
 }
 
-static void draw_color_key(cairo_t *cairo, const fg__page *page,
-                           const fg__palette *palette)
+void fg__draw_ramp(cairo_t *cairo, const fg__page_box *key, bool upright,
+                   const double point[2], const fg__palette *palette)
 {
-  const fg__page_box *key = &page->color_key;
-  cairo_pattern_t *ramp = page->color_key_upright
+  cairo_pattern_t *ramp = upright
                               ? cairo_pattern_create_linear(0.0, key->y1, 0.0, key->y0)
                               : cairo_pattern_create_linear(key->x0, 0.0, key->x1, 0.0);
   for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
@@ -195,10 +192,17 @@ static void draw_color_key(cairo_t *cairo, const fg__page *page,
     cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
                                      color.red, color.green, color.blue);
   }
-  add_color_key(cairo, page);
+  add_key(cairo, key, upright, point);
   cairo_set_source(cairo, ramp);
   cairo_fill_preserve(cairo);
   cairo_pattern_destroy(ramp);
+}
+
+static void draw_color_key(cairo_t *cairo, const fg__page *page,
+                           const fg__palette *palette)
+{
+  fg__draw_ramp(cairo, &page->color_key, page->color_key_upright, page->color_key_point,
+                palette);
   cairo_set_line_width(cairo, frame_width);
   set_color(cairo, ink);
   cairo_stroke(cairo);

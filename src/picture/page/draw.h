@@ -27,6 +27,11 @@ void fg__draw_mask(cairo_t *cairo, const fg__polygons *mask, fg__color color);
 /* Adds polygons to the path. */
 void fg__draw_path(cairo_t *cairo, const fg__polygons *polygons);
 
+/* Fills the bar of a colour key with the palette; its ends have points of such lengths,
+ * the first at the low end. Its outline stays the path. */
+void fg__draw_ramp(cairo_t *cairo, const fg__page_box *key, bool upright,
+                   const double point[2], const fg__palette *palette);
+
 /* The bar of a page's colour key and its ticks. */
 void fg__draw_key(cairo_t *cairo, const fg__page *page, const fg__palette *palette);
 

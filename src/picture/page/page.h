@@ -158,6 +158,26 @@ bool fg__page_break_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *coun
 double fg__page_fit_lines(char line[][FG__PAGE_TEXT_BYTES], int limit, int *count,
                           cairo_t *ruler, const char *text, double size, bool bold,
                           double width);
+/* A title and a subtitle broken into lines, the title's first. */
+typedef struct fg__caption_lines {
+  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
+  int titles, count;
+  double title_size, size;
+} fg__caption_lines;
+
+/* Breaks them into lines of a width, in sizes that are at most those asked for. Returns
+ * whether none had to shrink. */
+bool fg__caption_break(fg__caption_lines *out, cairo_t *ruler, const char *title,
+                       const char *subtitle, double title_size, double size,
+                       double width);
+
+/* The label of a colour key in lines, and the size of its letters. */
+typedef struct fg__bar_label {
+  char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
+  int count;
+  double size;
+} fg__bar_label;
+
 void fg__page_add_line(fg__page *page, double x0, double y0, double x1, double y1);
 
 /* Ticks of an axis of `length` points whose labels keep a distance. */

@@ -6,26 +6,17 @@
 /* A caption cut to a few letters says nothing; in units of the font size. */
 static const double shortest_caption = 8.0;
 
-/* Lines of a caption, the title's first. */
-typedef struct caption {
-  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES];
-  int titles, count;
-  double title_size, size;
-} caption;
-
-/* Titles that are too long for their lines shrink, so far as they are still read. Whether
- * none does. */
-static bool break_caption(caption *out, const fg__page_plan *plan, cairo_t *ruler,
-                          double em, double width)
+bool fg__caption_break(fg__caption_lines *out, cairo_t *ruler, const char *title,
+                       const char *subtitle, double title_size, double size, double width)
 {
-  const double title_size = 1.1 * em;
+  int subtitles;
   out->title_size = fg__page_fit_lines(out->line, FG__TITLE_LINES, &out->titles, ruler,
-                                       plan->title, title_size, true, width);
+                                       title, title_size, true, width);
   out->size =
       fg__page_fit_lines(out->line + out->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
-                         &out->count, ruler, plan->subtitle, em, false, width);
-  out->count += out->titles;
-  return out->title_size == title_size && out->size == em;
+                         &subtitles, ruler, subtitle, size, false, width);
+  out->count = out->titles + subtitles;
+  return out->title_size == title_size && out->size == size;
 }
 
 void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_plan *plan,
@@ -34,12 +25,13 @@ void fg__page_place_caption(fg__page *page, fg__margins *room, const fg__page_pl
   const double em = page->font_size, pad = 0.6 * em;
   double start = fmin(fmax(page->frame.x0, pad), 0.35 * page->width);
   const double widest = page->width - 2.0 * pad;
-  caption lines;
+  fg__caption_lines lines;
   if (widest < shortest_caption * em)
     return;
-  if (!break_caption(&lines, plan, ruler, em, page->width - pad - start)) {
+  if (!fg__caption_break(&lines, ruler, plan->title, plan->subtitle, 1.1 * em, em,
+                         page->width - pad - start)) {
     start = pad;
-    break_caption(&lines, plan, ruler, em, widest);
+    fg__caption_break(&lines, ruler, plan->title, plan->subtitle, 1.1 * em, em, widest);
   }
   fg__margins beyond = {0}; /* the caption's own width asks for no room */
   double y = page->frame.y0 - room->top - 0.7 * em - FG__TEXT_DESCENT * em;

@@ -55,10 +55,9 @@ const fg__page_text *fg__page_add_text(fg__page *page, fg__margins *room, cairo_
   added->align = words->align;
   added->x = words->upwards ? x : start_of(x, width, words->align);
   added->y = words->upwards ? y + width + start_of(0.0, width, words->align) : y;
-  added->box =
-      words->upwards
-          ? (fg__page_box){x - above, added->y - width, x + below, added->y}
-          : (fg__page_box){added->x, y - above, added->x + width, y + below};
+  added->box = words->upwards
+                   ? (fg__page_box){x - above, added->y - width, x + below, added->y}
+                   : (fg__page_box){added->x, y - above, added->x + width, y + below};
   fg__margins_hold(room, &page->frame, &added->box);
   return added;
 }
@@ -72,8 +71,8 @@ void fg__page_add_ticks(fg__page *page, fg__margins *room, cairo_t *ruler,
   const double gap = length + FG__TICK_GAP * em;
   const fg__tick_axis *axis = scale->axis;
   fg__ticks ticks;
-  fg__page_choose_ticks(&ticks, axis, ruler,
-                        upright ? from[1] - to[1] : to[0] - from[0], em, upright);
+  fg__page_choose_ticks(&ticks, axis, ruler, upright ? from[1] - to[1] : to[0] - from[0],
+                        em, upright);
   for (int k = 0; k < ticks.count; ++k) {
     const double share = (ticks.position[k] - axis->low) / (axis->high - axis->low);
     const double x = from[0] + share * (to[0] - from[0]);
@@ -85,12 +84,11 @@ void fg__page_add_ticks(fg__page *page, fg__margins *room, cairo_t *ruler,
     if (!scale->numbers)
       continue;
     const fg__words number = {.text = ticks.text[k],
-                              .align = !upright           ? FG__ALIGN_MIDDLE
+                              .align = !upright          ? FG__ALIGN_MIDDLE
                                        : scale->side < 0 ? FG__ALIGN_END
                                                          : FG__ALIGN_START};
     fg__page_add_text(page, room, ruler, &number, upright ? x + scale->side * gap : x,
-                      upright ? y + FG__HALF_DIGIT * em
-                              : y + gap + FG__TEXT_ASCENT * em);
+                      upright ? y + FG__HALF_DIGIT * em : y + gap + FG__TEXT_ASCENT * em);
   }
 }
 

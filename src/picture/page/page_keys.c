@@ -65,15 +65,9 @@ static bool measure_size_key(size_key *out, const fg__page *page,
   return true;
 }
 
-/* The colour key's label in lines. The default one is shortened to its unit where it is
- * longer than its room; one given by the options is broken into lines. */
-typedef struct bar_label {
-  char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
-  int count;
-  double size;
-} bar_label;
-
-static void break_label(bar_label *out, const fg__page_plan *plan, cairo_t *ruler,
+/* Breaks the colour key's label into lines. The default one is shortened to its unit
+ * where it is longer than its room; one given by the options is broken into lines. */
+static void break_label(fg__bar_label *out, const fg__page_plan *plan, cairo_t *ruler,
                         double font_size, double room)
 {
   const char *text = plan->speed.label;
@@ -115,7 +109,7 @@ static void bar_below(fg__page *page, fg__margins *room, const fg__page_plan *pl
 {
   const double em = page->font_size, y1 = y0 + bar_thickness * em;
   double x0 = at->start, x1 = at->end;
-  bar_label label;
+  fg__bar_label label;
   page->has_color_key = true;
   page->color_key_upright = false;
   add_points(page, plan, &x0, &x1);
@@ -158,8 +152,7 @@ static void size_below(fg__page *page, fg__margins *room, const size_key *key,
   const double em = page->font_size;
   const double tail[2] = {middle - 0.5 * key->length, y0 + 0.5 * bar_thickness * em};
   const double text[2] = {
-      middle,
-      y0 + (bar_thickness + tick_length + FG__TICK_GAP + FG__TEXT_ASCENT) * em};
+      middle, y0 + (bar_thickness + tick_length + FG__TICK_GAP + FG__TEXT_ASCENT) * em};
   add_size(page, room, key, ruler, tail, text, FG__ALIGN_MIDDLE);
 }
 
@@ -202,7 +195,7 @@ static void bar_beside(fg__page *page, fg__margins *room, const fg__page_plan *p
 {
   const double em = page->font_size, x1 = x0 + bar_thickness * em;
   double above = -at->start, below = -at->end;
-  bar_label label;
+  fg__bar_label label;
   page->has_color_key = true;
   page->color_key_upright = true;
   add_points(page, plan, &below, &above);

@@ -89,7 +89,8 @@ static fg__margins taken(const fg__page *panel)
     fg__margins_hold(&out, &panel->frame, &panel->text[k].box);
   for (int k = 0; k < panel->line_count; ++k) {
     const fg__page_line *line = &panel->line[k];
-    fg__margins_hold(&out, &panel->frame, &(fg__page_box){line->x0, line->y0, line->x1, line->y1});
+    fg__margins_hold(&out, &panel->frame,
+                     &(fg__page_box){line->x0, line->y0, line->x1, line->y1});
   }
   return out;
 }

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "picture/page/text.h"
+#include "picture/page/draw.h"
 
 /* In font sizes. */
 static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
@@ -330,23 +330,9 @@ void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
   cairo_t *cairo = writer->surface->cairo;
   const double em = writer->em;
   double height = pane->y1 - pane->y0, width = bar_width * em;
-  cairo_pattern_t *ramp = cairo_pattern_create_linear(0.0, pane->y1, 0.0, pane->y0);
-  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
-    fg__color color = palette->sample[k];
-    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
-                                     color.red, color.green, color.blue);
-  }
-  double middle = pane->x0 + 0.5 * width;
-  cairo_move_to(cairo, pane->x0, pane->y0);
-  cairo_line_to(cairo, middle, beyond[1] ? pane->y0 - width : pane->y0);
-  cairo_line_to(cairo, pane->x0 + width, pane->y0);
-  cairo_line_to(cairo, pane->x0 + width, pane->y1);
-  cairo_line_to(cairo, middle, beyond[0] ? pane->y1 + width : pane->y1);
-  cairo_line_to(cairo, pane->x0, pane->y1);
-  cairo_close_path(cairo);
-  cairo_set_source(cairo, ramp);
-  cairo_fill_preserve(cairo);
-  cairo_pattern_destroy(ramp);
+  const fg__page_box key = {pane->x0, pane->y0, pane->x0 + width, pane->y1};
+  const double point[2] = {beyond[0] ? width : 0.0, beyond[1] ? width : 0.0};
+  fg__draw_ramp(cairo, &key, true, point, palette);
   cairo_set_source_rgb(cairo, ink, ink, ink);
   cairo_set_line_width(cairo, fmax(em / 16.0, 1.0));
   cairo_stroke(cairo);

@@ -52,13 +52,6 @@ void fg__box_axes_place(fg__box_axes *axes, fg__pane *bounds,
 void fg__box_axes_draw(const fg__writer *writer, const fg__box_axes *axes,
                        const fg__view_box *view_box, const fg__camera *camera);
 
-/* What is written above a colour bar. */
-typedef struct fg__bar_label {
-  char line[FG__LABEL_LINES][FG__PAGE_TEXT_BYTES];
-  int count;
-  double size; /* of its letters; at most the font size */
-} fg__bar_label;
-
 /* How wide a colour bar of such a height is, with all that is written at it. */
 double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
                            const fg__bar_label *label, cairo_t *ruler);

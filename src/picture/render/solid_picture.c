@@ -70,9 +70,7 @@ typedef struct solid_picture {
   double pixels_per_point;
   bool framed, has_key, outline_text;
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
-  char line[FG__CAPTION_LINES][FG__PAGE_TEXT_BYTES]; /* of the two, the title's first */
-  int titles, lines;
-  double title_size, subtitle_size;
+  fg__caption_lines caption;
   fg__bar_label label;
 } solid_picture;
 
@@ -134,7 +132,7 @@ static void settle_threads(fg__rendering *out, int threads)
 /* How low the caption reaches, with some room below it. */
 static double caption_end(const solid_picture *p)
 {
-  return (p->lines ? p->lines * line_height + gap : edge) * p->em;
+  return (p->caption.count ? p->caption.count * line_height + gap : edge) * p->em;
 }
 
 /* The bar of the colour key: half way up, or just below the caption. */
@@ -265,13 +263,7 @@ static void break_texts(solid_picture *p, cairo_t *ruler)
 {
   const double em = p->em, width = p->rendering.width - 2.0 * edge * em;
   const double share = fmax(label_share * p->rendering.width, narrowest_label * em);
-  int subtitles;
-  p->title_size = fg__page_fit_lines(p->line, FG__TITLE_LINES, &p->titles, ruler,
-                                     p->title, em, true, width);
-  p->subtitle_size =
-      fg__page_fit_lines(p->line + p->titles, FG__CAPTION_LINES - FG__TITLE_LINES,
-                         &subtitles, ruler, p->subtitle, em, false, width);
-  p->lines = p->titles + subtitles;
+  fg__caption_break(&p->caption, ruler, p->title, p->subtitle, em, em, width);
   p->label.size =
       fg__page_fit_lines(p->label.line, FG__LABEL_LINES, &p->label.count, ruler,
                          p->speed.label, em, false, fmin(share, widest_label * em));
@@ -280,12 +272,13 @@ static void break_texts(solid_picture *p, cairo_t *ruler)
 /* The width that the caption needs. */
 static double caption_width(const solid_picture *p, cairo_t *ruler)
 {
+  const fg__caption_lines *lines = &p->caption;
   double widest = 0.0;
-  for (int n = 0; n < p->lines; ++n)
-    widest =
-        fmax(widest, n < p->titles
-                         ? fg__text_width(ruler, p->line[n], p->title_size, true)
-                         : fg__text_width(ruler, p->line[n], p->subtitle_size, false));
+  for (int n = 0; n < lines->count; ++n) {
+    const bool bold = n < lines->titles;
+    widest = fmax(widest, fg__text_width(ruler, lines->line[n],
+                                         bold ? lines->title_size : lines->size, bold));
+  }
   return widest + 2.0 * edge * p->em;
 }
 
@@ -390,12 +383,13 @@ static fg_status prepare(solid_picture *p, fg_context *context, const fg_field *
 static void draw_caption(fg__surface_file *surface, const solid_picture *p)
 {
   double y = 0.4 * p->em;
-  for (int n = 0; n < p->lines; ++n) {
-    const bool bold = n < p->titles;
-    const fg__writer writer = {surface, bold ? p->title_size : p->subtitle_size,
+  const fg__caption_lines *lines = &p->caption;
+  for (int n = 0; n < lines->count; ++n) {
+    const bool bold = n < lines->titles;
+    const fg__writer writer = {surface, bold ? lines->title_size : lines->size,
                                p->outline_text};
     y += line_height * p->em;
-    fg__write_text(&writer, p->line[n], (const double[2]){edge * p->em, y}, bold,
+    fg__write_text(&writer, lines->line[n], (const double[2]){edge * p->em, y}, bold,
                    bold ? title_grey : subtitle_grey, FG__ALIGN_START);
   }
 }
