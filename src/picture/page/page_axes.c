@@ -10,7 +10,7 @@ static const double tick_length = 0.35, word_gap = 0.8;
  * fewer than FEW_TICKS ticks may go down to; and the most ticks. */
 static const double default_spacing = 5.0;
 static const double default_spacing_upright = 4.2;
-static const double least_spacing_upright = 2.6;
+static const double least_spacing_upright = 2.4;
 enum { DEFAULT_TICKS = 12, FEW_TICKS = 4, TRIES = 16 };
 
 static bool labels_fit(const fg__ticks *ticks, const fg__tick_axis *axis, cairo_t *ruler,

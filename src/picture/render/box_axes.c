@@ -11,7 +11,6 @@ static const double tick_length = 0.35, number_gap = 0.3, label_gap = 0.55;
 static const double least_step = 4.0; /* from one number to the next */
 static const double shortest_axis = 3.0, shortest_named = 1.0;
 static const double bar_width = 0.9, name_gap = 0.8, label_line = 1.2;
-static const double bar_step = 2.4, least_bar_step = 1.2; /* so near only for a second */
 static const double digit_height = 0.72;
 
 /* Two numbers side by side read as one when they are nearer than this; the same number of
@@ -291,24 +290,12 @@ void fg__box_axes_draw(const fg__writer *writer, const fg__box_axes *axes,
   }
 }
 
-/* Two numbers at least, where there is room for them. */
-static void choose_bar_ticks(fg__ticks *out, double height, double em,
-                             const fg__tick_axis *speed)
-{
-  const double range = speed->high - speed->low;
-  double step = fg__ticks_step(speed, range * bar_step * em / height);
-  fg__ticks_fill(out, speed, step);
-  step = fg__ticks_step_below(speed, step);
-  if (out->count < 2 && step * height > least_bar_step * em * range)
-    fg__ticks_fill(out, speed, step);
-}
-
 double fg__color_bar_width(double height, double em, const fg__tick_axis *speed,
                            const fg__bar_label *label, cairo_t *ruler)
 {
   fg__ticks ticks;
   double widest = 0.0;
-  choose_bar_ticks(&ticks, height, em, speed);
+  fg__page_choose_ticks(&ticks, speed, ruler, height, em, true);
   for (int n = 0; n < ticks.count; ++n)
     widest = fmax(widest, fg__text_width(ruler, ticks.text[n], em, false));
   widest += (bar_width + tick_length + number_gap) * em;
@@ -338,7 +325,7 @@ void fg__color_bar_draw(const fg__writer *writer, const fg__pane *pane,
   cairo_stroke(cairo);
   fg__ticks ticks;
   const double range = speed->high - speed->low;
-  choose_bar_ticks(&ticks, height, em, speed);
+  fg__page_choose_ticks(&ticks, speed, cairo, height, em, true);
   for (int n = 0; n < ticks.count; ++n) {
     double y = pane->y1 - height * (ticks.position[n] - speed->low) / range;
     cairo_move_to(cairo, pane->x0 + width, y);
