@@ -8,8 +8,6 @@
 #include "base/memory.h"
 #include "picture/caption.h"
 
-/* A0 paper is 3370 points high; a page six times that is a mistake. */
-static const double largest_page = 20000.0;
 static const double default_pixels_per_point = 2.0;
 
 static const fg__color default_tint = {0.845, 0.895, 0.950};
@@ -20,7 +18,7 @@ static const fg__color lone_tint = {0.56, 0.68, 0.83};
 /* Checked so that NaN fails too. */
 static bool size_usable(double size)
 {
-  return size >= 0.0 && size <= largest_page;
+  return size >= 0.0 && size <= FG__LARGEST_PAGE;
 }
 
 static fg_status check_options(fg_context *context, const fg_picture_options *options)
@@ -28,25 +26,13 @@ static fg_status check_options(fg_context *context, const fg_picture_options *op
   if (!size_usable(options->width) || !size_usable(options->height))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: %g x %g points, each must lie between 0 and %g",
-                    options->width, options->height, largest_page);
-  if (!(options->pixels_per_point >= 0.0) || !isfinite(options->pixels_per_point))
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: %g pixels a point, a positive number is needed",
-                    options->pixels_per_point);
-  if (!(options->font_size >= 0.0) || options->font_size > largest_page)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: a font of %g points, it must lie between 0 and %g",
-                    options->font_size, largest_page);
-  if (!isfinite(options->speed_min) || !isfinite(options->speed_max) ||
-      options->speed_max < options->speed_min)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: the colour key cannot run from %g to %g",
-                    options->speed_min, options->speed_max);
+                    options->width, options->height, FG__LARGEST_PAGE);
   if (!(options->background_fade >= 0.0 && options->background_fade <= 1.0))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: a background faded by %g, it must lie between 0 and 1",
                     options->background_fade);
-  return FG_STATUS_OK;
+  return fg__surface_options_check(context, options->pixels_per_point, options->font_size,
+                                   options->speed_min, options->speed_max);
 }
 
 static void describe_axes(fg__page_plan *plan, const fg_field_arrays *field,
@@ -249,11 +235,11 @@ static fg_status lay_out(fg__figure *out, fg_context *context)
   if (trouble)
     return fg__fail(context, FG_STATUS_UNSUPPORTED, "picture: no text can be drawn: %s",
                     cairo_status_to_string(trouble));
-  if (!(out->page.width <= largest_page && out->page.height <= largest_page))
+  if (!(out->page.width <= FG__LARGEST_PAGE && out->page.height <= FG__LARGEST_PAGE))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: the domain's shape needs a page of %g x %g points, at most "
                     "%g are drawn",
-                    out->page.width, out->page.height, largest_page);
+                    out->page.width, out->page.height, FG__LARGEST_PAGE);
   return FG_STATUS_OK;
 }
 

@@ -5,8 +5,6 @@
 #include "picture/page/bristles.h"
 #include "picture/surface/surface.h"
 
-/* A0 paper is 3370 points high; a page six times that is a mistake. */
-static const double largest_page = 20000.0;
 static const double default_pixels_per_point = 2.0;
 /* 2^28 pixels take 1 GiB. */
 static const double most_pixels = 268435456.0;
@@ -109,10 +107,10 @@ fg_status fg_painting_write(fg_context *context, const char *path, const fg_imag
   double pixels =
       o.pixels_per_point == 0.0 ? default_pixels_per_point : o.pixels_per_point;
   double height = p.points_per_pixel * p.image->height;
-  if (!(width > 0.0 && width <= largest_page && height <= largest_page))
+  if (!(width > 0.0 && width <= FG__LARGEST_PAGE && height <= FG__LARGEST_PAGE))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "painting: %g x %g points, each must lie between 0 and %g", width,
-                    height, largest_page);
+                    height, FG__LARGEST_PAGE);
   if (!(pixels > 0.0 && width * pixels * height * pixels <= most_pixels))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "painting: %g x %g pixels, at most %g in all are drawn",

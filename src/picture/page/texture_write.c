@@ -20,19 +20,12 @@ static fg_status check_style(fg_context *context, const fg_texture_style *style)
   if (!(style->fade >= 0.0 && style->fade <= 1.0))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: fade %g, it must lie between 0 and 1", style->fade);
-  if (!isfinite(style->speed_min) || !isfinite(style->speed_max) ||
-      style->speed_max < style->speed_min)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "texture: speeds cannot run from %g to %g", style->speed_min,
-                    style->speed_max);
   if (style->width != 0.0 && !(style->width >= narrowest && style->width <= widest))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "texture: a width of %g points, it must lie between %g and %g",
                     style->width, narrowest, widest);
-  if (!(style->font_size >= 0.0 && isfinite(style->font_size)))
-    return fg__fail(context, FG_STATUS_ARGUMENT, "texture: texts of %g points",
-                    style->font_size);
-  return FG_STATUS_OK;
+  return fg__surface_options_check(context, 0.0, style->font_size, style->speed_min,
+                                   style->speed_max);
 }
 
 /* The outlines of what is masked, in pixels; y is stretched, should pixels not be square.

@@ -95,25 +95,13 @@ static fg_status check_options(fg_context *context, const fg_solid_options *opti
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: %d x %d pixels, each must lie between %d and %d", wide,
                     high, LEAST_SIZE, LARGEST_SIZE);
-  if (!(options->pixels_per_point >= 0.0) || !isfinite(options->pixels_per_point))
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: %g pixels a point, a positive number is needed",
-                    options->pixels_per_point);
-  if (!(options->font_size >= 0.0) || options->font_size > LARGEST_SIZE)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: a font of %g points, it must lie between 0 and %d",
-                    options->font_size, LARGEST_SIZE);
   if (!(fabs(options->azimuth) <= 3600.0) || !(fabs(options->elevation) <= 90.0))
     return fg__fail(context, FG_STATUS_ARGUMENT,
                     "picture: a view from azimuth %g, elevation %g degrees; the second "
                     "must lie between -90 and 90",
                     options->azimuth, options->elevation);
-  if (!isfinite(options->speed_min) || !isfinite(options->speed_max) ||
-      options->speed_max < options->speed_min)
-    return fg__fail(context, FG_STATUS_ARGUMENT,
-                    "picture: the colour key cannot run from %g to %g",
-                    options->speed_min, options->speed_max);
-  return FG_STATUS_OK;
+  return fg__surface_options_check(context, options->pixels_per_point, options->font_size,
+                                   options->speed_min, options->speed_max);
 }
 
 /* Pixels. */

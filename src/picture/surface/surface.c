@@ -22,6 +22,24 @@ fg__surface_file_format fg__surface_file_format_of(const char *path)
   return FG__SURFACE_UNKNOWN;
 }
 
+fg_status fg__surface_options_check(fg_context *context, double pixels_per_point,
+                                    double font_size, double speed_min, double speed_max)
+{
+  if (!(pixels_per_point >= 0.0) || !isfinite(pixels_per_point))
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: %g pixels a point, a positive number is needed",
+                    pixels_per_point);
+  if (!(font_size >= 0.0) || font_size > FG__LARGEST_PAGE)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: a font of %g points, it must lie between 0 and %g",
+                    font_size, FG__LARGEST_PAGE);
+  if (!isfinite(speed_min) || !isfinite(speed_max) || speed_max < speed_min)
+    return fg__fail(context, FG_STATUS_ARGUMENT,
+                    "picture: the colour key cannot run from %g to %g", speed_min,
+                    speed_max);
+  return FG_STATUS_OK;
+}
+
 fg_status fg__surface_file_format_check(fg_context *context, const char *path)
 {
   if (fg__surface_file_format_of(path) != FG__SURFACE_UNKNOWN)

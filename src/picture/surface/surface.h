@@ -17,6 +17,14 @@ typedef enum fg__surface_file_format {
 /* The format that a path's end names; UNKNOWN is reported by fg__surface_file_open. */
 fg__surface_file_format fg__surface_file_format_of(const char *path);
 
+/* A0 paper is 3370 points high; a page six times that is a mistake. */
+#define FG__LARGEST_PAGE 20000.0
+
+/* Refuses options of pictures that cannot be: pixels a point and the font's size, 0 where
+ * they follow, and the speeds at the ends of the colour key. ARGUMENT. */
+fg_status fg__surface_options_check(fg_context *context, double pixels_per_point,
+                                    double font_size, double speed_min, double speed_max);
+
 typedef struct fg__surface_file {
   fg__surface_file_format format;
   fg__whole_file file;
