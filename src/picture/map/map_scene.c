@@ -207,71 +207,77 @@ bool fg__map_scene_holds(const fg__map_scene *scene, const fg__page *page,
   return inside;
 }
 
+/* What degrees inside a map are placed with. */
+typedef struct labelling {
+  const fg__map_scene *scene;
+  fg__page *page;
+  const fg__graticule *graticule;
+  const fg__polygons *arrows;
+  cairo_t *ruler;
+} labelling;
+
 /* Free of the outline and of other texts, inside of the frame. */
-static bool has_room(const fg__map_scene *scene, const fg__page *page,
-                     const fg__page_box *box)
+static bool has_room(const labelling *l, const fg__page_box *box)
 {
-  const fg__page_box *frame = &page->frame;
+  const fg__page_box *frame = &l->page->frame;
+  const fg__polygons *outline = &l->scene->outline;
   if (box->x0 < frame->x0 || box->y0 < frame->y0 || box->x1 > frame->x1 ||
       box->y1 > frame->y1)
     return false;
-  for (int k = 0; k < page->text_count; ++k)
-    if (boxes_touch(&page->text[k].box, box))
+  for (int k = 0; k < l->page->text_count; ++k)
+    if (boxes_touch(&l->page->text[k].box, box))
       return false;
-  if (scene->outline.count &&
-      !fg__polygon_contains(&scene->outline, 0, 0.5 * (box->x0 + box->x1),
-                            0.5 * (box->y0 + box->y1)))
+  if (outline->count && !fg__polygon_contains(outline, 0, 0.5 * (box->x0 + box->x1),
+                                              0.5 * (box->y0 + box->y1)))
     return false;
-  return !loops_touch_box(&scene->outline, box);
-}
-
-/* Free of arrows, too. */
-static bool is_free(const fg__map_scene *scene, const fg__page *page,
-                    const fg__polygons *arrows, const fg__page_box *box, double gap)
-{
-  const double apart = gap * page->font_size;
-  const fg__page_box wider = {box->x0 - apart, box->y0 - apart, box->x1 + apart,
-                              box->y1 + apart};
-  return has_room(scene, page, box) && !loops_touch_box(arrows, &wider);
+  return !loops_touch_box(outline, box);
 }
 
 /* Where a label's text would stand, with a little room round it. */
-static fg__page_box box_of(const fg__page *page, const fg__map_label *label,
-                           const fg__plane *plane, cairo_t *ruler)
+static fg__page_box box_of(const labelling *l, const fg__map_label *label)
 {
-  const double size = inside_size * page->font_size, pad = 0.12 * size;
-  const double half = 0.5 * fg__text_width(ruler, label->text, size, false) + pad;
+  const double size = inside_size * l->page->font_size, pad = 0.12 * size;
+  const double half = 0.5 * fg__text_width(l->ruler, label->text, size, false) + pad;
   double at[2] = {label->at[0], label->at[1]};
-  fg__page_project(page, plane->low, at);
+  fg__page_project(l->page, l->graticule->plane->low, at);
   return (fg__page_box){at[0] - half, at[1] - 0.5 * size - pad, at[0] + half,
                         at[1] + 0.5 * size + pad};
 }
 
-static void add_label(fg__page *page, const fg__map_label *label, const fg__page_box *box)
+/* Whether a label has room, and arrows keep a distance of `gap` font sizes. */
+static bool is_free(const labelling *l, const fg__map_label *label, double gap)
 {
-  fg__page_text *text = fg__page_next_text(page, label->text);
+  const double apart = gap * l->page->font_size;
+  const fg__page_box box = box_of(l, label);
+  const fg__page_box wider = {box.x0 - apart, box.y0 - apart, box.x1 + apart,
+                              box.y1 + apart};
+  return has_room(l, &box) && !loops_touch_box(l->arrows, &wider);
+}
+
+static void add_label(const labelling *l, const fg__map_label *label)
+{
+  const fg__page_box box = box_of(l, label);
+  fg__page_text *text =
+      has_room(l, &box) ? fg__page_next_text(l->page, label->text) : NULL;
   if (!text)
     return;
-  text->size = inside_size * page->font_size;
+  text->size = inside_size * l->page->font_size;
   text->quiet = true;
-  text->x = box->x0 + 0.12 * text->size;
-  text->y = 0.5 * (box->y0 + box->y1) + 0.36 * text->size;
-  text->box = *box;
+  text->x = box.x0 + 0.12 * text->size;
+  text->y = 0.5 * (box.y0 + box.y1) + FG__HALF_DIGIT * text->size;
+  text->box = box;
   text->halo = true;
 }
 
 /* Which of the places that each line has is free for most lines: labels in a row. */
-static int best_place(const fg__map_scene *scene, const fg__page *page,
-                      const fg__graticule *graticule, const fg__polygons *arrows,
-                      cairo_t *ruler)
+static int best_place(const labelling *l)
 {
   int free_places[FG__MAP_LABELS] = {0}, best = 0;
-  for (int k = 0, place = 0; k < graticule->insides; ++k, ++place) {
-    const fg__map_label *label = &graticule->inside[k];
+  for (int k = 0, place = 0; k < l->graticule->insides; ++k, ++place) {
+    const fg__map_label *label = &l->graticule->inside[k];
     if (k > 0 && label->line != label[-1].line)
       place = 0;
-    const fg__page_box box = box_of(page, label, graticule->plane, ruler);
-    free_places[place] += is_free(scene, page, arrows, &box, arrow_gap);
+    free_places[place] += is_free(l, label, arrow_gap);
   }
   for (int place = 1; place < FG__MAP_LABELS; ++place)
     if (free_places[place] > free_places[best])
@@ -281,19 +287,15 @@ static int best_place(const fg__map_scene *scene, const fg__page *page,
 
 /* The free one of a line's labels that is nearest to the best place; NULL: none is free.
  */
-static const fg__map_label *nearest_free(const fg__map_scene *scene, const fg__page *page,
-                                         const fg__graticule *graticule,
-                                         const fg__map_label *label, int count, int best,
-                                         const fg__polygons *arrows, double gap,
-                                         cairo_t *ruler)
+static const fg__map_label *nearest_free(const labelling *l, const fg__map_label *label,
+                                         int count, int best, double gap)
 {
   const fg__map_label *nearest = NULL;
   double least = HUGE_VAL;
   for (int k = 0; k < count; ++k) {
     const double away =
         hypot(label[k].at[0] - label[best].at[0], label[k].at[1] - label[best].at[1]);
-    const fg__page_box box = box_of(page, &label[k], graticule->plane, ruler);
-    if (away < least && is_free(scene, page, arrows, &box, gap)) {
+    if (away < least && is_free(l, &label[k], gap)) {
       nearest = &label[k];
       least = away;
     }
@@ -302,37 +304,31 @@ static const fg__map_label *nearest_free(const fg__map_scene *scene, const fg__p
 }
 
 /* One of a line's labels; one that is needed stands over arrows rather than nowhere. */
-static void label_line(const fg__map_scene *scene, fg__page *page,
-                       const fg__graticule *graticule, const fg__map_label *label,
-                       int count, int best, const fg__polygons *arrows, cairo_t *ruler)
+static void label_line(const labelling *l, const fg__map_label *label, int count,
+                       int best)
 {
-  const fg__map_label *chosen =
-      nearest_free(scene, page, graticule, label, count, best, arrows, arrow_gap, ruler);
+  const fg__map_label *chosen = nearest_free(l, label, count, best, arrow_gap);
   if (!chosen)
-    chosen = nearest_free(scene, page, graticule, label, count, best, arrows,
-                          least_arrow_gap, ruler);
+    chosen = nearest_free(l, label, count, best, least_arrow_gap);
   if (!chosen && label->needed)
     chosen = &label[best];
-  if (!chosen)
-    return;
-  const fg__page_box box = box_of(page, chosen, graticule->plane, ruler);
-  if (has_room(scene, page, &box))
-    add_label(page, chosen, &box);
+  if (chosen)
+    add_label(l, chosen);
 }
 
 void fg__map_scene_label(const fg__map_scene *scene, fg__page *page,
                          const fg__graticule *graticule, const fg__polygons *arrows,
                          cairo_t *ruler)
 {
-  const int best = best_place(scene, page, graticule, arrows, ruler);
+  const labelling l = {scene, page, graticule, arrows, ruler};
+  const int best = best_place(&l);
   for (int first = 0, end; first < graticule->insides; first = end) {
     const fg__map_label *label = &graticule->inside[first];
     int count = 1;
     while (first + count < graticule->insides && label[count].line == label->line)
       ++count;
     end = first + count;
-    label_line(scene, page, graticule, label, count, best < count ? best : 0, arrows,
-               ruler);
+    label_line(&l, label, count, best < count ? best : 0);
   }
 }
 
