@@ -1,6 +1,5 @@
 #include "option/recorded.h"
 
-#include <cjson/cJSON.h>
 #include <inttypes.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -8,6 +7,7 @@
 #include <string.h>
 
 #include "option/table.h"
+#include "report/json.h"
 
 /* Options without influence on results: place of output, speed, duration; and files,
  * whose paths depend on the working directory: files_match compares those of a finished
@@ -240,14 +240,6 @@ static const char *further_path(const reading_settings *reading, int k)
   return path;
 }
 
-static void add_text(cJSON *object, const char *name, const char *text)
-{
-  if (text)
-    cJSON_AddStringToObject(object, name, text);
-  else
-    cJSON_AddNullToObject(object, name);
-}
-
 /* The path from the root; NULL: there is no such file. For free(). */
 static char *absolute_path(const char *path)
 {
@@ -257,13 +249,13 @@ static char *absolute_path(const char *path)
 void files_record(cJSON *input, const reading_settings *reading)
 {
   char *absolute = absolute_path(reading->input);
-  add_text(input, "path", reading->input);
-  add_text(input, "absolute", absolute);
+  json_add_text(input, "path", reading->input);
+  json_add_text(input, "absolute", absolute);
   free(absolute);
   for (int k = 0; k < FURTHER_FILES; ++k) {
     const char *path = further_path(reading, k);
     absolute = absolute_path(path);
-    add_text(input, further_files[k].name, absolute ? absolute : path);
+    json_add_text(input, further_files[k].name, absolute ? absolute : path);
     free(absolute);
   }
 }

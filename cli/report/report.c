@@ -207,7 +207,7 @@ int report_write(const char *path, const run_facts *facts)
   if (text)
     code = write_text(path, text);
   else
-    complain("out of memory for run.json");
+    complain_of_memory("run.json");
   cJSON_free(text);
   cJSON_Delete(root);
   return code;

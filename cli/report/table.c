@@ -35,11 +35,7 @@ static bool append(cli_table *table, const char *text, size_t bytes)
 static int begin(cli_table *out, char *path)
 {
   *out = (cli_table){.path = path, .file = -1};
-  if (!path) {
-    complain("out of memory for a file's name");
-    return EXIT_FAILED;
-  }
-  return EXIT_DONE;
+  return path ? EXIT_DONE : complain_of_memory("a file's name");
 }
 
 int table_start(cli_table *out, char *path)

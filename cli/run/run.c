@@ -234,10 +234,8 @@ static int prepare(cli_run *run, bool *done)
   output_contents there;
   int code = EXIT_DONE;
   run->checkpoint = output_checkpoint_path(run->settings->output);
-  if (!run->checkpoint) {
-    complain("out of memory for a file's name");
-    code = EXIT_FAILED;
-  }
+  if (!run->checkpoint)
+    code = complain_of_memory("a file's name");
   if (!code && ranks_leader()) {
     code = output_check(run->settings->output);
     if (!code)
