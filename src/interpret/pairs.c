@@ -34,6 +34,7 @@ fg__term fg__term_of(const fg__variable *v)
   return (fg__term){.name = fg__called(v),
                     .standard_name = text_of(v, "standard_name"),
                     .long_name = text_of(v, "long_name"),
+                    .comment = text_of(v, "comment"),
                     .units = text_of(v, "units"),
                     .group = (int)v->location,
 

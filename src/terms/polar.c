@@ -99,16 +99,30 @@ static bool has_to(const char *text)
   return false;
 }
 
+/* The sense by a convention that a text names: 0, none or both. In prose "from" alone may
+ * say where data come from. */
+static int convention_of(const char *text)
+{
+  const bool from = fg__contains_any(text, "from which|meteorological convention|"
+                                           "from where|coming from|comes from");
+  const bool to = fg__contains_any(text, "toward|to which|oceanographic convention|"
+                                         "oceanographical convention");
+  return (int)to - (int)from;
+}
+
 static int sense_of(const fg__term *term)
 {
   const char *standard = standard_name(term), *more = or_empty(term->long_name);
   const char *name = fg__last_part(term->name);
+  const int convention = convention_of(or_empty(term->comment));
   if (standard[0])
     return strstr(standard, "from_direction") ? -1 : 1;
   if (has_from(name) || has_from(more))
     return -1;
   if (has_to(name) || fg__find_text(more, "toward"))
     return 1;
+  if (convention != 0 || convention_of(more) != 0)
+    return convention != 0 ? convention : convention_of(more);
   return fg__contains_any(name, "wind|wave|swell|drct") ||
                  fg__contains_any(more, "wind|wave|swell") || fg__small(name[0]) == 'w' ||
                  fg__is_same(name, "dd")
@@ -120,9 +134,13 @@ static bool is_from_east(const fg__term *term)
 {
   static const char words[] = "from east|from_east|counterclockwise|counter-clockwise|"
                               "anticlockwise|anti-clockwise|ccw|mathematical";
+  static const char in_prose[] = "mathematical convention|counterclockwise from|"
+                                 "counter-clockwise from|anticlockwise from|"
+                                 "anti-clockwise from";
   return fg__contains_any(term->name, words) ||
          fg__contains_any(or_empty(term->long_name), words) ||
-         fg__contains_any(or_empty(term->units), words);
+         fg__contains_any(or_empty(term->units), words) ||
+         fg__contains_any(or_empty(term->comment), in_prose);
 }
 
 bool fg__direction_read(fg__polar *out, const fg__term *term)

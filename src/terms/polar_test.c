@@ -44,6 +44,34 @@ static void names_have_a_sense(void **state)
   }
 }
 
+/* A convention may stand in a comment alone, whose other words say nothing. */
+static void comments_name_conventions(void **state)
+{
+  static const struct {
+    const char *name, *comment;
+    int sense;
+    bool from_east;
+  } cases[] = {
+      {"wind_direction", "oceanographic convention: toward which the wind blows", 1,
+       false},
+      {"wind_dir", "the direction to which it blows, clockwise from north", 1, false},
+      {"current_dir", "meteorological convention", -1, false},
+      {"current_dir", "direction from which the current flows", -1, false},
+      {"current_dir", "derived from the components", 1, false},
+      {"wind_dir", "sensor moved to the new mast", -1, false},
+      {"direction", "mathematical convention: counterclockwise from east", 1, true},
+      {"direction", "counterclockwise rotation of the mast was removed", 1, false},
+  };
+  (void)state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg__term term = {.name = cases[n].name, .comment = cases[n].comment};
+    fg__polar polar;
+    fg__direction_read(&polar, &term);
+    if (polar.sense != cases[n].sense || polar.from_east != cases[n].from_east)
+      fail_msg("%s, '%s'", cases[n].name, cases[n].comment);
+  }
+}
+
 static void directions_are_known_by_names_and_units(void **state)
 {
   static const struct {
@@ -146,6 +174,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_have_a_sense),
+      cmocka_unit_test(comments_name_conventions),
       cmocka_unit_test(directions_are_known_by_names_and_units),
       cmocka_unit_test(components_are_those_of_the_angle),
       cmocka_unit_test(numbers_and_units_are_compared),

@@ -6,7 +6,7 @@
 
 typedef struct fg__term {
   const char *name;
-  const char *standard_name, *long_name, *units; /* NULL: it has none */
+  const char *standard_name, *long_name, *units, *comment; /* NULL: it has none */
   int place; /* equal for variables whose samples are at the same points */
   int group; /* components of one vector are of one group, such as points or cells */
   int file;  /* the one that has it, of two; -1: either */
