@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/angle.h"
+#include "base/decimal.h"
 #include "dataset/dataset.h"
 #include "terms/text.h"
 #include "terms/units.h"
@@ -113,11 +114,26 @@ static void turn_degrees(fg__packing *p, double degrees)
   }
 }
 
+/* A number of the packing, which some write as a text: "0.001". */
+static int number_of(double *out, const fg__variable *v, const char *attribute)
+{
+  char text[FG__TEXT_BYTES];
+  const char *end;
+  const int count = fg__attribute_numbers(v, attribute, out, 1);
+  if (count > 0 || !fg__attribute_text(v, attribute, text, sizeof text))
+    return count;
+  const double number = fg__number_read(text, &end);
+  if (end == text || end[strspn(end, " ")] || !isfinite(number))
+    return 0;
+  *out = number;
+  return 1;
+}
+
 fg__packing fg__packing_of(const fg__variable *variable)
 {
   fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
-  const int scaled = fg__attribute_numbers(variable, "scale_factor", &p.scale, 1);
-  const int moved = fg__attribute_numbers(variable, "add_offset", &p.offset, 1);
+  const int scaled = number_of(&p.scale, variable, "scale_factor");
+  const int moved = number_of(&p.offset, variable, "add_offset");
   find_fills(&p, variable);
   find_range(&p, variable, scaled + moved > 0);
   find_unsigned(&p, variable);

@@ -440,10 +440,17 @@ int fg__component_in_words(const char *words)
   return found[0] == found[1] ? -1 : found[1];
 }
 
+bool fg__is_positive_backwards(const char *words)
+{
+  return fg__contains_any(words, "positive west|positive south|positive to the west|"
+                                 "positive to the south");
+}
+
 bool fg__counts_backwards(const char *words)
 {
-  return fg__contains_any(words, "westward|southward") &&
-         fg__component_in_words(words) < 0;
+  return fg__is_positive_backwards(words) ||
+         (fg__contains_any(words, "westward|southward") &&
+          fg__component_in_words(words) < 0);
 }
 
 int fg__counts_downward(const char *words)

@@ -59,6 +59,9 @@ int fg__component_in_words(const char *words);
 /* Whether words count a component to the west or south, and not also to the opposite. */
 bool fg__counts_backwards(const char *words);
 
+/* Whether they say "positive to the west" or "positive southward", in prose too. */
+bool fg__is_positive_backwards(const char *words);
+
 /* 1 for a flux that is counted downward, -1 for one counted upward, 0 where words say
  * neither. */
 int fg__counts_downward(const char *words);

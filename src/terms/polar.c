@@ -104,8 +104,10 @@ static bool has_to(const char *text)
 static int convention_of(const char *text)
 {
   const bool from = fg__contains_any(text, "from which|meteorological convention|"
+                                           "blows from|blowing from|"
                                            "from where|coming from|comes from");
   const bool to = fg__contains_any(text, "toward|to which|oceanographic convention|"
+                                         "blows to|blowing to|flows to|flowing to|"
                                          "oceanographical convention");
   return (int)to - (int)from;
 }
@@ -128,6 +130,19 @@ static int sense_of(const fg__term *term)
                  fg__is_same(name, "dd")
              ? -1
              : 1;
+}
+
+const char *fg__opposite_sense(const fg__term *direction)
+{
+  const char *standard = standard_name(direction);
+  const char *const texts[] = {or_empty(direction->long_name),
+                               or_empty(direction->comment)};
+  const int sense = (strstr(standard, "to_direction") != NULL) -
+                    (strstr(standard, "from_direction") != NULL);
+  for (size_t n = 0; n < sizeof texts / sizeof *texts; ++n)
+    if (sense * convention_of(texts[n]) < 0)
+      return texts[n];
+  return NULL;
 }
 
 static bool is_from_east(const fg__term *term)
