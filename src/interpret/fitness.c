@@ -214,30 +214,12 @@ static bool list_said(said out[SOURCES], const fg__term *term)
   return fg__component_of_name(&out[0].component, out[0].text);
 }
 
-static void check_sense(fg__grid *grid, const fg__pair *pair)
-{
-  for (int k = 0; k < 2; ++k) {
-    const fg__term term = fg__term_of(pair->component[k]);
-    const char *opposite = fg__opposite_sense(&term);
-    if (!opposite)
-      continue;
-    fg__set_unusable(grid->unusable,
-                     "'%.60s' is a direction by its standard name '%.80s', and the "
-                     "opposite by '%.80s'",
-                     term.name, term.standard_name, opposite);
-    snprintf(grid->hint, sizeof grid->hint,
-             "--vars SPEED,DIRECTION takes the direction by its standard name");
-  }
-}
-
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair)
 {
   said of[2][SOURCES];
   fg__term term[2];
-  if (pair->polar.sense != 0) {
-    check_sense(grid, pair);
+  if (pair->polar.sense != 0)
     return FG_STATUS_OK;
-  }
   for (int k = 0; k < 2; ++k) {
     term[k] = fg__term_of(pair->component[k]);
     if (!list_said(of[k], &term[k]))

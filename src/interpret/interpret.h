@@ -208,8 +208,8 @@ void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 void fg__check_variable(fg__grid *grid, const fg__variable *v);
 void fg__check_storage(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
 
-/* polar.c. Makes a polar pair unusable where its unit or north's direction is not
- * known. */
+/* polar.c. Makes a polar pair unusable where its unit or north's direction is not known,
+ * or where its words say the opposite of its name. */
 void fg__check_polar(fg__grid *grid, const fg__pair *pair,
                      const fg_read_options *options);
 

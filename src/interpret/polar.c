@@ -49,6 +49,24 @@ fg_status fg__settle_polar(fg__pair *pair, const fg__dataset *data)
   return FG_STATUS_OK;
 }
 
+/* What the options name is taken by its name. */
+static void check_sense(fg__grid *grid, const fg__pair *pair,
+                        const fg_read_options *options)
+{
+  const fg__term term = fg__term_of(pair->component[1]);
+  const char *opposite = options->vars ? NULL : fg__opposite_sense(&term);
+  if (!opposite)
+    return;
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' is the direction %s by its name '%.80s', and the opposite by "
+                   "'%.80s'",
+                   term.name,
+                   pair->polar.sense < 0 ? "from where it comes" : "to where it goes",
+                   term.standard_name ? term.standard_name : term.name, opposite);
+  snprintf(grid->hint, sizeof grid->hint,
+           "--vars SPEED,DIRECTION takes the direction by its name");
+}
+
 void fg__check_polar(fg__grid *grid, const fg__pair *pair, const fg_read_options *options)
 {
   const fg__variable *direction = pair->component[1];
@@ -59,6 +77,7 @@ void fg__check_polar(fg__grid *grid, const fg__pair *pair, const fg_read_options
     fg__set_unusable(grid->unusable,
                      "the direction '%.120s' is not in degrees or radians",
                      direction->name);
+  check_sense(grid, pair, options);
   if (grid->faces.used || (grid->mesh && (grid->mesh->shift[0] || grid->mesh->shift[1])))
     fg__set_unusable(grid->unusable, "speed and direction lie at different places");
   if (options->frame == FG_FRAME_GRID)

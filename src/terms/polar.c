@@ -99,16 +99,15 @@ static bool has_to(const char *text)
   return false;
 }
 
-/* The sense by a convention that a text names: 0, none or both. In prose "from" alone may
- * say where data come from. */
+/* The sense by a convention that prose names; 0: none or both. "From" and "toward" alone
+ * say where data come from, or which way angles grow. */
 static int convention_of(const char *text)
 {
-  const bool from = fg__contains_any(text, "from which|meteorological convention|"
-                                           "blows from|blowing from|"
-                                           "from where|coming from|comes from");
-  const bool to = fg__contains_any(text, "toward|to which|oceanographic convention|"
-                                         "blows to|blowing to|flows to|flowing to|"
-                                         "oceanographical convention");
+  const bool from = fg__contains_any(text, "direction from which|blows from|blowing from|"
+                                           "meteorological convention");
+  const bool to = fg__contains_any(text, "direction to which|direction toward which|"
+                                         "direction towards which|blows to|blowing to|"
+                                         "flows to|flowing to|oceanographic convention");
   return (int)to - (int)from;
 }
 
@@ -116,15 +115,17 @@ static int sense_of(const fg__term *term)
 {
   const char *standard = standard_name(term), *more = or_empty(term->long_name);
   const char *name = fg__last_part(term->name);
-  const int convention = convention_of(or_empty(term->comment));
   if (standard[0])
     return strstr(standard, "from_direction") ? -1 : 1;
   if (has_from(name) || has_from(more))
     return -1;
   if (has_to(name) || fg__find_text(more, "toward"))
     return 1;
-  if (convention != 0 || convention_of(more) != 0)
-    return convention != 0 ? convention : convention_of(more);
+  for (int k = 0; k < 2; ++k) {
+    const int convention = convention_of(k == 0 ? more : or_empty(term->comment));
+    if (convention != 0)
+      return convention;
+  }
   return fg__contains_any(name, "wind|wave|swell|drct") ||
                  fg__contains_any(more, "wind|wave|swell") || fg__small(name[0]) == 'w' ||
                  fg__is_same(name, "dd")
@@ -134,13 +135,10 @@ static int sense_of(const fg__term *term)
 
 const char *fg__opposite_sense(const fg__term *direction)
 {
-  const char *standard = standard_name(direction);
   const char *const texts[] = {or_empty(direction->long_name),
                                or_empty(direction->comment)};
-  const int sense = (strstr(standard, "to_direction") != NULL) -
-                    (strstr(standard, "from_direction") != NULL);
   for (size_t n = 0; n < sizeof texts / sizeof *texts; ++n)
-    if (sense * convention_of(texts[n]) < 0)
+    if (sense_of(direction) * convention_of(texts[n]) < 0)
       return texts[n];
   return NULL;
 }

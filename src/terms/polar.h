@@ -12,14 +12,14 @@ typedef struct fg__polar {
   bool from_east; /* counter-clockwise from east, else clockwise from north */
 } fg__polar;
 
-/* The long name or comment of a direction that says the opposite of its standard name,
- * from or toward which; NULL: neither does. */
-const char *fg__opposite_sense(const fg__term *direction);
-
 /* Whether a term is a direction, by its standard name, its name or units of an angle, and
  * how it is counted: by the words "from" and "to"; else wind and waves are named after
  * the place from where they come (WMO, CF's sea_surface_wave_from_direction). */
 bool fg__direction_read(fg__polar *out, const fg__term *term);
+
+/* The long name or comment of a direction that names the convention opposite to the sense
+ * that fg__direction_read gives it; NULL: neither does. */
+const char *fg__opposite_sense(const fg__term *direction);
 
 /* The speed that belongs to a direction, by their standard names or their names alone;
  * -1: none, or no direction. */

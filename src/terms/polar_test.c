@@ -52,13 +52,17 @@ static void comments_name_conventions(void **state)
     int sense;
     bool from_east;
   } cases[] = {
-      {"wind_direction", "oceanographic convention: toward which the wind blows", 1,
-       false},
+      {"wind_direction", "oceanographic convention, clockwise from north", 1, false},
       {"wind_dir", "the direction to which it blows, clockwise from north", 1, false},
       {"current_dir", "meteorological convention", -1, false},
       {"current_dir", "direction from which the current flows", -1, false},
       {"current_dir", "derived from the components", 1, false},
+      {"current_dir", "data coming from a buoy from which drifters are released", 1,
+       false},
       {"wind_dir", "sensor moved to the new mast", -1, false},
+      {"wind_dir", "measured from north toward east", -1, false},
+      {"wind_dir", "the meteorological convention, not the oceanographic convention", -1,
+       false},
       {"direction", "mathematical convention: counterclockwise from east", 1, true},
       {"direction", "counterclockwise rotation of the mast was removed", 1, false},
   };
@@ -69,6 +73,48 @@ static void comments_name_conventions(void **state)
     fg__direction_read(&polar, &term);
     if (polar.sense != cases[n].sense || polar.from_east != cases[n].from_east)
       fail_msg("%s, '%s'", cases[n].name, cases[n].comment);
+  }
+}
+
+/* Words that name the other convention are found; others that only sound like it are not.
+ */
+static void opposite_conventions_are_found(void **state)
+{
+  static const struct {
+    fg__term term;
+    const char *opposite;
+  } cases[] = {
+      {{.name = "a", .standard_name = "wind_from_direction", .comment = "blows toward"},
+       "blows toward"},
+      {{.name = "b",
+        .standard_name = "sea_water_velocity_to_direction",
+        .long_name = "direction from which the current flows"},
+       "direction from which the current flows"},
+      {{.name = "wdir_to", .comment = "meteorological convention"},
+       "meteorological convention"},
+      {{.name = "wdir",
+        .long_name = "wind from direction",
+        .comment = "oceanographic convention"},
+       "oceanographic convention"},
+      {{.name = "c",
+        .standard_name = "sea_water_velocity_to_direction",
+        .long_name = "direction of the current from HF radar"},
+       NULL},
+      {{.name = "d",
+        .standard_name = "wind_from_direction",
+        .comment = "clockwise from north toward east"},
+       NULL},
+      {{.name = "e",
+        .standard_name = "wind_from_direction",
+        .long_name = "direction from which the wind blows"},
+       NULL},
+  };
+  (void)state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const char *found = fg__opposite_sense(&cases[n].term);
+    if (found ? !cases[n].opposite || strcmp(found, cases[n].opposite) != 0
+              : cases[n].opposite != NULL)
+      fail_msg("%s: %s", cases[n].term.name, found ? found : "nothing");
   }
 }
 
@@ -175,6 +221,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_have_a_sense),
       cmocka_unit_test(comments_name_conventions),
+      cmocka_unit_test(opposite_conventions_are_found),
       cmocka_unit_test(directions_are_known_by_names_and_units),
       cmocka_unit_test(components_are_those_of_the_angle),
       cmocka_unit_test(numbers_and_units_are_compared),

@@ -54,8 +54,8 @@ static const statement STATEMENTS[] = {
     {"a direction from and toward", GLOBE, .name = {"wind_speed", "wind_dir"},
      .standard = {"wind_speed", "wind_from_direction"},
      .words = {NULL, "direction that the wind blows to"},
-     .refused =
-         "'wind_dir' is a direction by its standard name 'wind_from_direction', and"},
+     .refused = "'wind_dir' is the direction from where it comes by its name "
+                "'wind_from_direction'"},
     {"the same, as its standard name says", GLOBE, .name = {"wind_speed", "wind_dir"},
      .standard = {"wind_speed", "wind_from_direction"},
      .words = {NULL, "direction that the wind blows to"}, .vars = "wind_speed,wind_dir"},
