@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "base/utf8.h"
 
@@ -318,11 +319,28 @@ bool fg__attribute_text(const fg__variable *variable, const char *attribute, cha
   return found;
 }
 
+/* Numbers that are written as a text: "0.001", "-20, 20"; 0: the text has others, or more
+ * than the capacity. */
+static int read_numbers(double *out, int capacity, const char *text)
+{
+  int count = 0;
+  for (const char *end; *(text += strspn(text, ", ")); text = end) {
+    const double number = fg__number_read(text, &end);
+    if (end == text || (*end && !strchr(", ", *end)) || !isfinite(number) ||
+        count == capacity)
+      return 0;
+    out[count++] = number;
+  }
+  return count;
+}
+
 int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
                           double *out, int capacity)
 {
   const fg__attribute *a = fg__attribute_find(variable, attribute);
   int count = 0;
+  if (a && a->text)
+    return read_numbers(out, capacity, a->text);
   for (; a && count < capacity && (size_t)count < a->count; ++count)
     out[count] = a->number[count];
   return count;

@@ -240,7 +240,8 @@ double fg__number_of_bytes(fg__type type, const unsigned char *bytes, bool swapp
 bool fg__attribute_text(const fg__variable *variable, const char *attribute, char *out,
                         size_t size);
 
-/* The numbers of an attribute, at most `capacity`; returns how many. */
+/* The numbers of an attribute, also where they are written as a text, at most `capacity`;
+ * returns how many. */
 int fg__attribute_numbers(const fg__variable *variable, const char *attribute,
                           double *out, int capacity);
 
@@ -275,9 +276,10 @@ typedef struct fg__packing {
   double scale, offset;
   double fill[FG__MOST_FILLS]; /* in stored values */
   int fills;
-  double least, largest; /* valid range */
-  bool range_unpacked;   /* the range is of unpacked values, not of stored ones */
-  double wrap;           /* added to negative values of _Unsigned data, or 0 */
+  fg__missing_numbers unpacked; /* missing_value of packed data in the unpacked type */
+  double least, largest;        /* valid range */
+  bool range_unpacked;          /* the range is of unpacked values, not of stored ones */
+  double wrap;                  /* added to negative values of _Unsigned data, or 0 */
   const fg__missing_numbers *given;
 } fg__packing;
 

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/angle.h"
-#include "base/decimal.h"
 #include "dataset/dataset.h"
 #include "terms/text.h"
 #include "terms/units.h"
@@ -14,27 +13,26 @@ static double round_to_type(double value, fg__type type)
                                                                     : value;
 }
 
-static void find_fills(fg__packing *p, const fg__variable *v)
+/* Whether an attribute of packed numbers has the type of unpacked ones. */
+static bool is_of_unpacked(const fg__variable *v, const char *name)
+{
+  const fg__attribute *a = fg__attribute_find(v, name);
+  return a && a->count > 0 && a->is_floating && !fg__is_floating(v);
+}
+
+/* CF, section 2.5.1: missing_value is packed; some write it in unpacked units. */
+static void find_fills(fg__packing *p, const fg__variable *v, bool packed)
 {
   p->fills = fg__attribute_numbers(v, "_FillValue", p->fill, 1);
   if (p->fills == 0 && !isnan(v->fill))
     p->fill[p->fills++] = v->fill;
   p->fills += fg__attribute_numbers(v, "missing_value", p->fill + p->fills,
                                     FG__MOST_FILLS - p->fills);
+  if (packed && is_of_unpacked(v, "missing_value"))
+    p->unpacked.count =
+        fg__attribute_numbers(v, "missing_value", p->unpacked.number, FG__MOST_FILLS);
   for (int i = 0; i < p->fills; ++i)
     p->fill[i] = round_to_type(p->fill[i], v->type);
-}
-
-/* Whether an attribute of the valid range has the type of unpacked values. */
-static bool has_floating_range(const fg__variable *v)
-{
-  static const char *const names[] = {"valid_range", "valid_max", "valid_min"};
-  for (int n = 0; n < 3; ++n) {
-    const fg__attribute *a = fg__attribute_find(v, names[n]);
-    if (a && a->count > 0)
-      return a->is_floating;
-  }
-  return false;
 }
 
 static void find_range(fg__packing *p, const fg__variable *v, bool packed)
@@ -50,7 +48,9 @@ static void find_range(fg__packing *p, const fg__variable *v, bool packed)
     fg__attribute_numbers(v, "valid_max", &p->largest, 1);
   }
   /* NUG, appendix A: a range of the unpacked type is of the unpacked values */
-  p->range_unpacked = packed && has_floating_range(v) && !fg__is_floating(v);
+  p->range_unpacked =
+      packed && (is_of_unpacked(v, "valid_range") || is_of_unpacked(v, "valid_max") ||
+                 is_of_unpacked(v, "valid_min"));
   if (!p->range_unpacked) {
     p->least = round_to_type(p->least, v->type);
     p->largest = round_to_type(p->largest, v->type);
@@ -114,27 +114,12 @@ static void turn_degrees(fg__packing *p, double degrees)
   }
 }
 
-/* A number of the packing, which some write as a text: "0.001". */
-static int number_of(double *out, const fg__variable *v, const char *attribute)
-{
-  char text[FG__TEXT_BYTES];
-  const char *end;
-  const int count = fg__attribute_numbers(v, attribute, out, 1);
-  if (count > 0 || !fg__attribute_text(v, attribute, text, sizeof text))
-    return count;
-  const double number = fg__number_read(text, &end);
-  if (end == text || end[strspn(end, " ")] || !isfinite(number))
-    return 0;
-  *out = number;
-  return 1;
-}
-
 fg__packing fg__packing_of(const fg__variable *variable)
 {
   fg__packing p = {.scale = 1.0, .offset = 0.0, .given = &variable->owner->missing};
-  const int scaled = number_of(&p.scale, variable, "scale_factor");
-  const int moved = number_of(&p.offset, variable, "add_offset");
-  find_fills(&p, variable);
+  const int scaled = fg__attribute_numbers(variable, "scale_factor", &p.scale, 1);
+  const int moved = fg__attribute_numbers(variable, "add_offset", &p.offset, 1);
+  find_fills(&p, variable, scaled + moved > 0);
   find_range(&p, variable, scaled + moved > 0);
   find_unsigned(&p, variable);
   turn_degrees(&p, fg__degrees_per_unit(variable));
@@ -155,7 +140,8 @@ double fg__unpack(const fg__packing *packing, double stored, fg__missing_counts 
       return (double)NAN;
     }
   const double value = stored * packing->scale + packing->offset;
-  if (packing->given->count > 0 && fg__is_given_missing(packing->given, value)) {
+  if (fg__is_given_missing(packing->given, value) ||
+      fg__is_given_missing(&packing->unpacked, value)) {
     ++missing->fill;
     return (double)NAN;
   }

@@ -27,6 +27,42 @@ static void write_shape(char *out, size_t size, const fg__dataset *data,
                           data->dimensions[v->dimension[k]].length);
 }
 
+/* An attribute of the packing that is a text, but no number; NULL: none. */
+static const char *unread_packing(const fg__variable *v)
+{
+  static const char *const names[] = {"scale_factor", "add_offset"};
+  double number;
+  for (int n = 0; n < 2; ++n) {
+    const fg__attribute *a = fg__attribute_find(v, names[n]);
+    if (a && a->text && fg__attribute_numbers(v, names[n], &number, 1) == 0)
+      return names[n];
+  }
+  return NULL;
+}
+
+void fg__check_packing(fg__grid *grid, const fg__pair *pair)
+{
+  fg__packing of[2];
+  bool packed[2];
+  for (int k = 0; k < 2; ++k) {
+    const fg__variable *v = pair->component[k];
+    const char *const unread = unread_packing(v);
+    of[k] = fg__packing_of(v);
+    packed[k] = of[k].scale != 1.0 || of[k].offset != 0.0;
+    if (unread)
+      fg__set_unusable(grid->unusable, "'%.60s' has a %s that is no number: '%.60s'",
+                       v->plain_name, unread, fg__attribute_find(v, unread)->text);
+  }
+  const fg__variable *with = pair->component[packed[1]],
+                     *without = pair->component[packed[0]];
+  if (pair->polar.sense == 0 && packed[0] != packed[1] && !fg__is_floating(with) &&
+      with->type == without->type)
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' has a scale_factor of %g, '%.60s' none, and both are whole "
+                     "numbers",
+                     with->plain_name, of[packed[1]].scale, without->plain_name);
+}
+
 void fg__check_variable(fg__grid *grid, const fg__variable *v)
 {
   if (v->unusable)

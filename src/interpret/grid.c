@@ -234,7 +234,7 @@ static fg_status read_axes(fg__grid *grid, const fg__dataset *data, const fg__pa
   }
   if (is_free && is_usable(grid))
     check_counting(grid, coordinate);
-  return FG_STATUS_OK;
+  return geographic ? fg__check_other_places(grid, data, v, coordinate) : FG_STATUS_OK;
 }
 
 static void set_positions(fg__grid *grid, const fg__variable *v)
@@ -251,6 +251,7 @@ static void check_units(fg__grid *grid, const fg__pair *pair, fg__quantity *quan
   char of_v[FG__TEXT_BYTES];
   *quantity = fg__units_of(pair->component[0], of_u, sizeof of_u);
   const fg__quantity other = fg__units_of(pair->component[1], of_v, sizeof of_v);
+  fg__check_packing(grid, pair);
   if (pair->polar.sense != 0)
     return;
   if (of_u[0] && of_v[0] && strcmp(of_u, of_v) != 0)
@@ -298,6 +299,7 @@ static void check_directions(fg__grid *grid, const fg__dataset *data,
     return;
   if (grid->projection[0]) {
     grid->points_east = true;
+    fg__check_frame(grid, pair, frame);
     return;
   }
   const fg__variable *described = fg__grid_mapping_of(data, u);

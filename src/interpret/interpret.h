@@ -206,6 +206,10 @@ void fg__refuse_apart(fg__grid *grid, const fg__pair *pair);
 /* Makes the pair unusable where a variable is not numeric, or has more samples than a
  * file of this size can hold. */
 void fg__check_variable(fg__grid *grid, const fg__variable *v);
+
+/* Where a packing's attribute is no number, or only one of two components of whole
+ * numbers is packed. */
+void fg__check_packing(fg__grid *grid, const fg__pair *pair);
 void fg__check_storage(fg__grid *grid, const fg__dataset *data, const fg__variable *v);
 
 /* polar.c. Makes a polar pair unusable where its unit or north's direction is not known,
@@ -283,9 +287,12 @@ bool fg__named_alike(const char *of_u, const char *of_v);
 const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset *data,
                                          const fg__variable *variable, fg__role role);
 
-/* Other longitudes beside those, between which nothing decides; NULL: none. */
-const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *data,
-                                    const fg__variable *variable);
+/* Compares the longitudes and latitudes that are taken for a variable with others on the
+ * same dimensions, between which nothing decides: doubts those within a cell, and refuses
+ * others. The library's status otherwise. */
+fg_status fg__check_other_places(fg__grid *grid, const fg__dataset *data,
+                                 const fg__variable *variable,
+                                 const fg__variable *const taken[2]);
 
 /* Whether the variable's attribute `coordinates` names both of them. */
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,

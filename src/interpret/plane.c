@@ -12,8 +12,9 @@
  * those of float are 1.5e-5 degrees. */
 static const double STRAIGHT_TOLERANCE = 0.01;
 
-/* Positions nearer than this fraction of a cell coincide. */
-static const double SAME_PLACE = 0.1;
+/* Positions nearer than this part of a cell coincide; those of a cell's centre, faces and
+ * corners are less than one cell apart. */
+static const double SAME_PLACE = 0.1, SAME_CELL = 1.0;
 
 typedef struct plane {
   const fg__variable *variable;
@@ -81,23 +82,6 @@ const fg__variable *fg__plane_coordinate(const fg__grid *grid, const fg__dataset
     }
   }
   return found;
-}
-
-const fg__variable *fg__plane_other(const fg__grid *grid, const fg__dataset *data,
-                                    const fg__variable *variable)
-{
-  const fg__variable *taken = fg__plane_coordinate(grid, data, variable, FG__ROLE_X);
-  char listed[FG__TEXT_BYTES];
-  fg__attribute_text(variable, "coordinates", listed, sizeof listed);
-  for (size_t i = 0; taken && i < data->variable_count; ++i) {
-    const fg__variable *v = &data->variables[i];
-    if (v != taken && v->file == taken->file && v->rank == taken->rank &&
-        v->geographic == FG__ROLE_X &&
-        lies_in_plane(data, v, grid->axis[0].dimension, grid->axis[1].dimension) &&
-        fg__is_listed(listed, v->plain_name) == fg__is_listed(listed, taken->plain_name))
-      return v;
-  }
-  return NULL;
 }
 
 bool fg__names_plane(const fg__grid *grid, const fg__dataset *data,
@@ -176,12 +160,13 @@ static double step_of(const plane *p, size_t n0, size_t n1, bool longitude)
   return fmax(mean[0], mean[1]);
 }
 
-/* Whether most values of two coordinates differ by a part of a cell; turned: the second
- * has its dimensions in the other order. Values that are no numbers do not count. */
+/* Whether most values of two coordinates differ by more than so many cells; turned: the
+ * second has its dimensions in the other order. Values that are no numbers do not
+ * count. */
 static bool most_differ(const plane of[2], size_t n0, size_t n1, bool turned,
-                        bool longitude)
+                        bool longitude, double cells)
 {
-  const double limit = SAME_PLACE * step_of(&of[0], n0, n1, longitude);
+  const double limit = cells * step_of(&of[0], n0, n1, longitude);
   size_t differ = 0, equal = 0;
   for (size_t i = 0; i < n0; ++i)
     for (size_t j = 0; j < n1; ++j) {
@@ -210,8 +195,9 @@ static fg_status compare_planes(bool *apart, const fg__dataset *data, plane of[2
   for (int k = 0; k < 2 && status == FG_STATUS_OK; ++k)
     status = read_plane(&of[k], data);
   if (status == FG_STATUS_OK)
-    *apart = most_differ(of, data->dimensions[dimension[0]].length,
-                         data->dimensions[dimension[1]].length, turned, longitude);
+    *apart =
+        most_differ(of, data->dimensions[dimension[0]].length,
+                    data->dimensions[dimension[1]].length, turned, longitude, SAME_PLACE);
   free(of[0].value);
   free(of[1].value);
   return status;
@@ -240,6 +226,76 @@ fg_status fg__plane_compare(bool *apart, const fg__grid *grid, const fg__dataset
     status = compare_planes(apart, data, of, turned, role == FG__ROLE_X);
   }
   return status;
+}
+
+/* Whether another variable is of positions on the dimensions of those that are taken, and
+ * `coordinates` names both or neither. */
+static bool is_alike(const fg__variable *other, const fg__variable *taken,
+                     const char *listed)
+{
+  if (other == taken || other->file != taken->file || other->rank != taken->rank ||
+      other->geographic != taken->geographic || !fg__is_array(other) ||
+      fg__is_listed(listed, other->plain_name) !=
+          fg__is_listed(listed, taken->plain_name))
+    return false;
+  int k = 0;
+  while (k < taken->rank && other->dimension[k] == taken->dimension[k])
+    ++k;
+  return k == taken->rank;
+}
+
+static fg_status compare_places(bool *apart, const fg__dataset *data, plane of[2])
+{
+  const fg__variable *v = of[0].variable;
+  const int *last = v->dimension + v->rank;
+  const size_t n0 = v->rank > 1 ? data->dimensions[last[-2]].length : 1,
+               n1 = data->dimensions[last[-1]].length;
+  fg_status status = read_plane(&of[0], data);
+  if (status == FG_STATUS_OK)
+    status = read_plane(&of[1], data);
+  if (status == FG_STATUS_OK)
+    *apart = most_differ(of, n0, n1, false, v->geographic == FG__ROLE_X, SAME_CELL);
+  free(of[0].value);
+  free(of[1].value);
+  return status;
+}
+
+static void refuse_places(fg__grid *grid, const fg__variable *variable,
+                          const fg__variable *taken, const fg__variable *other)
+{
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' and '%.60s' are more than a cell apart, and nothing says "
+                   "at which '%.60s' lies",
+                   taken->plain_name, other->plain_name, variable->plain_name);
+  snprintf(grid->hint, sizeof grid->hint,
+           "An attribute that names longitudes and latitudes decides: ncatted -a "
+           "coordinates,%.60s,o,c,'LON LAT' FILE",
+           variable->plain_name);
+}
+
+fg_status fg__check_other_places(fg__grid *grid, const fg__dataset *data,
+                                 const fg__variable *variable,
+                                 const fg__variable *const taken[2])
+{
+  char listed[FG__TEXT_BYTES];
+  fg__attribute_text(variable, "coordinates", listed, sizeof listed);
+  for (int k = 0; k < 2; ++k)
+    for (size_t i = 0; i < data->variable_count; ++i) {
+      plane of[2] = {{taken[k], NULL}, {&data->variables[i], NULL}};
+      bool apart = false;
+      if (taken[k]->geographic == FG__NO_ROLE ||
+          !is_alike(of[1].variable, taken[k], listed))
+        continue;
+      const fg_status status = compare_places(&apart, data, of);
+      if (status != FG_STATUS_OK)
+        return status;
+      if (apart)
+        refuse_places(grid, variable, taken[k], of[1].variable);
+      else if (k == 0 && taken[k]->rank > 1)
+        fg__doubt(grid->doubts, "'%.60s' is taken to lie at '%.60s', not at '%.60s'",
+                  variable->plain_name, taken[k]->plain_name, of[1].variable->plain_name);
+    }
+  return FG_STATUS_OK;
 }
 
 /* Whether most values of a coordinate along a dimension of a plane are others than the
@@ -330,6 +386,10 @@ fg_status fg__plane_find(fg__grid *grid, const fg__dataset *data,
   status = fg__grid_axis_read(grid, data, 0, longitude.variable);
   if (status == FG_STATUS_OK)
     status = fg__grid_axis_read(grid, data, 1, latitude.variable);
+  if (status == FG_STATUS_OK)
+    status = fg__check_other_places(
+        grid, data, variable,
+        (const fg__variable *[]){longitude.variable, latitude.variable});
 
 cleanup:
   free(longitude.value);

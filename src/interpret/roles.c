@@ -37,37 +37,16 @@ typedef struct called {
   int fits;
 } called;
 
-static void consider_name(called *c, const fg__variable *v)
+static void consider_name(called *c, const fg__variable *v, bool named)
 {
   int fits;
   const fg__role role = fg__place_of_name(&fits, v->plain_name);
-  fits = 2 * fits + (v->geographic != FG__NO_ROLE);
+  fits = 8 * named + 2 * fits + (v->geographic != FG__NO_ROLE);
   if (role == FG__NO_ROLE || fits < c->fits)
     return;
   c->best = fits > c->fits ? v : NULL;
   c->role = c->fits == 0 || c->role == role ? role : FG__NO_ROLE;
   c->fits = fits;
-}
-
-/* The coordinate of a dimension: the variable of its name; else one whose attributes say
- * that it is one; else one with a place's name. */
-const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
-                                   int k)
-{
-  const int dimension = variable->dimension[k];
-  const fg__variable *otherwise = NULL;
-  called by_name = {NULL, FG__NO_ROLE, 0};
-  for (size_t i = 0; i < data->variable_count; ++i) {
-    const fg__variable *v = &data->variables[i];
-    if (!lies_along(data, v, dimension))
-      continue;
-    if (strcmp(v->plain_name, data->dimensions[dimension].name) == 0)
-      return v;
-    if (!otherwise && role_of_attributes(v) != FG__NO_ROLE)
-      otherwise = v;
-    consider_name(&by_name, v);
-  }
-  return otherwise || by_name.role == FG__NO_ROLE ? otherwise : by_name.best;
 }
 
 /* Whether a variable names a coordinate, or xarray lists it for the file. */
@@ -81,6 +60,29 @@ static bool is_named(const fg__variable *variable, const fg__variable *coordinat
         fg__is_listed(names, coordinate->plain_name))
       return true;
   return false;
+}
+
+/* The coordinate of a dimension: the variable of its name; else one whose attributes say
+ * that it is one, which the variable names where it names any; else one with a place's
+ * name. */
+const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
+                                   int k)
+{
+  const int dimension = variable->dimension[k];
+  const fg__variable *otherwise = NULL;
+  called by_name = {NULL, FG__NO_ROLE, 0};
+  for (size_t i = 0; i < data->variable_count; ++i) {
+    const fg__variable *v = &data->variables[i];
+    if (!lies_along(data, v, dimension))
+      continue;
+    if (strcmp(v->plain_name, data->dimensions[dimension].name) == 0)
+      return v;
+    if (role_of_attributes(v) != FG__NO_ROLE &&
+        (!otherwise || is_named(variable, v) > is_named(variable, otherwise)))
+      otherwise = v;
+    consider_name(&by_name, v, is_named(variable, v));
+  }
+  return otherwise || by_name.role == FG__NO_ROLE ? otherwise : by_name.best;
 }
 
 static bool has_dimension(const fg__variable *v, int dimension)

@@ -167,11 +167,17 @@ static bool is_of_two_bytes(float value)
   return false;
 }
 
+/* Whether all components have a whole number below 0, as -1, and none has it alone. */
+static bool is_agreed(const fg__extreme *e)
+{
+  return e->together == e->count && e->value < 0.0F && !(e->value > floorf(e->value));
+}
+
 /* Whether an extreme that recurs may be a code, whatever others are. */
 static bool may_be_code(const fg__extreme *e)
 {
   return e->count > 1 &&
-         (fabsf(e->value) >= SMALLEST_CODE || is_of_two_bytes(e->value) ||
+         (fabsf(e->value) >= SMALLEST_CODE || is_of_two_bytes(e->value) || is_agreed(e) ||
           (e->together == e->count && fabsf(e->value) >= SMALLEST_TOGETHER &&
            is_customary(e->value)));
 }
@@ -194,6 +200,8 @@ static bool is_code(const fg__extreme *e, float other, float largest_value)
   const double gap = fabs((double)e->value - (double)e->next);
   const double range = fabs((double)e->next - (double)other);
   const double largest = fmax(fabs((double)e->next), fabs((double)other));
+  if (is_agreed(e) && range > 0.0 && gap >= CUSTOMARY_GAP * range)
+    return true;
   return is_customary(e->value) || is_of_two_bytes(e->value)
              ? gap >= CUSTOMARY_GAP * range && fabs((double)e->value) > largest
              : largest > 0.0 && fabsf(e->value) > largest_value &&

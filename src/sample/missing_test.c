@@ -40,6 +40,10 @@ static const situation SITUATIONS[] = {
     {-5, 8, 65.535, LARGE_BLOCK, .refused = true},
     {-1, 2, -9, LARGE_BLOCK, .refused = true, .together = true},
     {-1, 2, 9.999, LARGE_BLOCK, .refused = true, .together = true},
+    {10, 30, -2, LARGE_BLOCK, .refused = true, .together = true},
+    {10, 30, -2, LARGE_BLOCK, .refused = false},
+    {10, 30, -2.5, LARGE_BLOCK, .refused = false, .together = true},
+    {10, 30, 0, LARGE_BLOCK, .refused = false, .together = true},
     {0, 3, -99.0 / 4.0, LARGE_BLOCK, .refused = false, .together = true},
     {-1, 2, -9, LARGE_BLOCK, .missing = "-9", .together = true},
     /* decided by the option */

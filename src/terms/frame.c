@@ -61,6 +61,15 @@ bool fg__says_east(const fg__term *u)
   return standard > 0 || (standard == 0 && east_word(u, UNAMBIGUOUS_WORDS));
 }
 
+bool fg__frame_is_contradicted(const fg__term *u)
+{
+  static const char words[] = "x component|x-component|y component|y-component|along i|"
+                              "along j|along x|along y|along the grid|grid-relative|"
+                              "relative to the grid|grid x|grid y|grid-x|grid-y";
+  return u->frame == 0 && by_standard_name(u) > 0 && u->long_name &&
+         fg__contains_any(u->long_name, words) && !east_word(u, ALL_WORDS);
+}
+
 bool fg__counts_cells(const char *dimension)
 {
   static const char known[] = "i|j|ni|nj";

@@ -23,6 +23,9 @@ int fg__frame_of_terms(char *why, size_t size, const fg__term *u, const fg__term
 /* Whether a component's standard name, or an unambiguous word of its names, says east. */
 bool fg__says_east(const fg__term *u);
 
+/* Whether its standard name says east, and its long name "x component" or the like. */
+bool fg__frame_is_contradicted(const fg__term *u);
+
 /* Whether a dimension is named after a grid's own directions. */
 bool fg__counts_cells(const char *dimension);
 

@@ -49,16 +49,16 @@ static const unit_row UNITS[] = {
     {PRESSURE, 1e5, "bar", "bar"},
     {EAST, FG__RADIANS, "°E",
      "degree_east|degrees_east|degrees east|degrees-east|degreeseast|"
-     "degree_e|degrees_e|degreee|degreese"},
+     "degree_e|degrees_e|degreee|degreese|deg e|deg_e|dege"},
     {EAST, -FG__RADIANS, "°W",
      "degree_west|degrees_west|degrees west|degrees-west|degreeswest|"
-     "degree_w|degrees_w|degreew|degreesw"},
+     "degree_w|degrees_w|degreew|degreesw|deg w|deg_w|degw"},
     {NORTH, FG__RADIANS, "°N",
      "degree_north|degrees_north|degrees north|degrees-north|degreesnorth|"
-     "degree_n|degrees_n|degreen|degreesn"},
+     "degree_n|degrees_n|degreen|degreesn|deg n|deg_n|degn"},
     {NORTH, -FG__RADIANS, "°S",
      "degree_south|degrees_south|degrees south|degrees-south|degreessouth|"
-     "degree_s|degrees_s"},
+     "degree_s|degrees_s|deg s|deg_s"},
 };
 
 /* The unit of a word, singular or plural; NULL: unknown. */
@@ -223,7 +223,17 @@ bool fg__is_unit_in_name(const char *word)
 
 const char *fg__units_of_name(const char *name)
 {
-  return fg__is_same(name, "sknt") ? "kn" : "";
+  static const char *const rows[][2] = {
+      {"kn", "sknt"},
+      {"degrees_west", "lon_w|long_w|longitude_w|longitude_west|west_longitude"},
+      {"degrees_south", "lat_s|latitude_s|latitude_south|south_latitude"},
+  };
+  char plain[FG__UNIT_BYTES];
+  fg__plain_name(plain, sizeof plain, name);
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+    if (fg__is_one_of(rows[i][1], plain, strlen(plain)))
+      return rows[i][0];
+  return "";
 }
 
 bool fg__fill_radians(const double longitude[2], const double latitude[2])

@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "file/number_text.h"
+#include "terms/units.h"
 
 enum { LOOKED_AT = 4096, STOP_EVERY = 1 << 16, SHOWN = 40 };
 
@@ -190,10 +191,38 @@ static const fg__decoder DECODER = {.fetch = fetch,
                                     .records = "line",
                                     .record = record};
 
+/* The units of a column, also by its name. FILE_FORMAT: degrees west or south by name
+ * alone, and numbers below 0, which count to the east or north in most tables. */
+static fg_status find_units(const char **out, fg_context *context, const char *path,
+                            const table_state *s, int c)
+{
+  const fg__table_column *column = &s->table.column[c];
+  fg__unit unit;
+  *out = column->units[0] ? column->units : fg__units_of_name(column->name);
+  fg__unit_read(&unit, *out);
+  for (size_t n = 0; n < s->rows && !column->units[0] && unit.factor < 0.0; ++n) {
+    const double value = s->cell[n * (size_t)s->table.columns + (size_t)c];
+    if (!(value < 0.0))
+      continue;
+    fg__fail(context, FG_STATUS_FILE_FORMAT,
+             "%s: '%.60s' is in %s by its name, and has %g: a sign and a name that both "
+             "turn it",
+             path, column->name, *out, value);
+    fg__hint(context, "Without W or S in its name, numbers below 0 are west or south.");
+    return FG_STATUS_FILE_FORMAT;
+  }
+  return FG_STATUS_OK;
+}
+
 /* A column of which most fields are texts is one of texts. */
 static fg_status add_column(fg__dataset *dataset, const table_state *s, int c)
 {
   const fg__table_column *column = &s->table.column[c];
+  const char *units;
+  const fg_status status =
+      find_units(&units, dataset->context, dataset->file[dataset->files - 1].path, s, c);
+  if (status != FG_STATUS_OK)
+    return status;
   char number[16];
   size_t known = 0;
   for (size_t n = 0; n < s->rows; ++n)
@@ -209,9 +238,8 @@ static fg_status add_column(fg__dataset *dataset, const table_state *s, int c)
   v->dimension[0] = (int)dataset->dimension_count - 1;
   v->in_one_run = true;
   v->id = c;
-  return column->units[0]
-             ? fg__variable_add_text(v, "units", column->units, strlen(column->units))
-             : FG_STATUS_OK;
+  return units[0] ? fg__variable_add_text(v, "units", units, strlen(units))
+                  : FG_STATUS_OK;
 }
 
 static fg_status add_columns(fg__dataset *dataset, const table_state *s)

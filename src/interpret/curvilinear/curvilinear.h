@@ -61,6 +61,9 @@ fg_status fg__staggered_find(fg__grid *grid, const fg__dataset *data,
 bool fg__frame_find(fg__curvilinear *mesh, const fg__dataset *data, const fg__pair *pair,
                     fg_frame wanted);
 
+/* Makes a pair unusable whose standard and long names name different frames. */
+void fg__check_frame(fg__grid *grid, const fg__pair *pair, fg_frame wanted);
+
 /* Whether components are known to be along the grid: as asked, by their standard names,
  * or because the file has the grid's angle. */
 bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,

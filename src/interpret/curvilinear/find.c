@@ -227,14 +227,14 @@ static fg_status find_shift(bool *found, fg__curvilinear *mesh, const fg__datase
 }
 
 /* Of components on one point a file may have positions of several (TLONG and ULONG). */
-static void tell_other_positions(fg__grid *grid, const fg__dataset *data,
-                                 const fg__curvilinear *mesh)
+static fg_status check_others(fg__grid *grid, const fg__dataset *data,
+                              const fg__curvilinear *mesh)
 {
   const fg__curvilinear_part *at = &mesh->part[0];
-  const fg__variable *other = fg__plane_other(&at->grid, data, at->variable);
-  if (other && is_same_place(at, &mesh->part[1]) && at->longitude)
-    fg__doubt(grid->doubts, "'%.60s' is taken to lie at '%.60s', not at '%.60s'",
-              at->variable->plain_name, at->longitude->plain_name, other->plain_name);
+  if (!at->longitude || !is_same_place(at, &mesh->part[1]))
+    return FG_STATUS_OK;
+  return fg__check_other_places(grid, data, at->variable,
+                                (const fg__variable *[]){at->longitude, at->latitude});
 }
 
 static fg_status recognise(fg__curvilinear *mesh, fg__grid *grid, const fg__dataset *data,
@@ -260,9 +260,10 @@ static fg_status recognise(fg__curvilinear *mesh, fg__grid *grid, const fg__data
     mesh->at.grid.axis[0] = mesh->part[1].grid.axis[0];
   grid->unusable[0] = grid->hint[0] = '\0';
   check_storage(grid, data, mesh);
-  tell_other_positions(grid, data, mesh);
+  status = check_others(grid, data, mesh);
   find_mask(mesh, data);
-  if (!fg__frame_find(mesh, data, pair, frame)) {
+  fg__check_frame(grid, pair, frame);
+  if (status == FG_STATUS_OK && !fg__frame_find(mesh, data, pair, frame)) {
     fg__set_unusable(grid->unusable,
                      "nothing says whether '%.60s' and '%.60s' point east and north or "
                      "along the grid",

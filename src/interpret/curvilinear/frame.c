@@ -109,6 +109,20 @@ bool fg__is_along_grid(const fg__grid *grid, const fg__dataset *data,
   return fg__frame_of_terms(why, sizeof why, &u, &v, &evidence) < 0;
 }
 
+void fg__check_frame(fg__grid *grid, const fg__pair *pair, fg_frame wanted)
+{
+  for (int k = 0; k < 2 && wanted == FG_FRAME_AUTO && pair->polar.sense == 0; ++k) {
+    const fg__term t = fg__term_of(pair->component[k]);
+    if (!fg__frame_is_contradicted(&t))
+      continue;
+    fg__set_unusable(grid->unusable,
+                     "'%.60s' is along east and north by its standard name '%.60s', and "
+                     "along the grid by its long name '%.60s'",
+                     pair->component[k]->plain_name, t.standard_name, t.long_name);
+    snprintf(grid->hint, sizeof grid->hint, "--frame east or --frame grid decides");
+  }
+}
+
 bool fg__frame_find(fg__curvilinear *mesh, const fg__dataset *data, const fg__pair *pair,
                     fg_frame wanted)
 {

@@ -110,6 +110,33 @@ static const situation SITUATIONS[] = {
          "v(j,i) :coordinates=ULONG ULAT = 1",
      .options = {.frame = FG_FRAME_EAST},
      .field = "geo |doubts ''"},
+    {.what = "positions that are farther apart than the points of a cell",
+     .file =
+         "j[4]; i[5]; TLONG(j,i) ~ 9 i 1 j .2; TLAT(j,i) ~ 9 j 1; ULONG(j,i) ~ 12 i 1 "
+         "j .2; ULAT(j,i) ~ 9.5 j 1;" FLOW("j,i", "j,i"),
+     .options = {.frame = FG_FRAME_EAST},
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'TLONG' and 'ULONG' are more than a cell apart, and nothing says at "
+                "which 'u' lies"},
+    {.what = "latitudes that are",
+     .file = "y[4]; x[5]; lon(x) ~ 9 x 1; lat(y) ~ 9 y 1; lat_v(y) ~ 19 y 1;" FLOW("y,x",
+                                                                                   "y,x"),
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'lat' and 'lat_v' are more than a cell apart"},
+    {.what = "the same, where the attribute says",
+     .file = "y[4]; x[5]; lon(x) ~ 9 x 1; lat(y) ~ 9 y 1; lat_v(y) ~ 19 y 1; float "
+             "u(y,x) :coordinates=lat_v lon = 1; float v(y,x) :coordinates=lat_v lon = 1",
+     .field = "geo |y = 19 20 21 22"},
+    {.what = "the standard name says another frame than the long name",
+     .file = "j[4]; i[5]; lon(j,i) ~ 9 i 1 j .2; lat(j,i) ~ 9 j 1; float u(j,i) "
+             ":standard_name=eastward_wind :long_name=x component of wind = 1; float "
+             "v(j,i) :standard_name=northward_wind :long_name=y component of wind = 1",
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'u' is along east and north by its standard name 'eastward_wind', and "
+                "along the grid by its long name 'x component of wind'"},
+    {.what = "the same, decided",
+     .options = {.frame = FG_FRAME_EAST},
+     .field = "geo |doubts ''"},
     {.what = "longitudes without latitudes",
      .file = INDICES "lon(y,x) ~ 9 x 1;" FLOW("y,x", "y,x"),
      .field =

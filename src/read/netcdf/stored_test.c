@@ -9,8 +9,9 @@
 #define PACKED(type)                                                                     \
   {                                                                                      \
     .what = "packed " type,                                                              \
-    .file = PAIR(type, " :scale_factor=#.5 :add_offset=#-7", "-20:37:3", "", COUNTED),   \
-    .field = "u = -17 -15.5 -14 -12.5 -11|8.5 10 11.5\nv = 1 2 3 4"                      \
+    .file = PAIR(type, " :scale_factor=#.5 :add_offset=#-7", "-20:37:3",                 \
+                 " :scale_factor=#2", COUNTED),                                          \
+    .field = "u = -17 -15.5 -14 -12.5 -11|8.5 10 11.5\nv = 2 4 6 8"                      \
   }
 /* a value that was never written; and three reasons, with a range of stored values */
 #define MISSING(type, fill)                                                              \
@@ -23,7 +24,7 @@
     .file = PAIR(type,                                                                   \
                  " :_FillValue=@-999 :missing_value=@-777 :valid_max=@299 "              \
                  ":scale_factor=#.01",                                                   \
-                 "1 2 3 -999 -777 6:19:1 300", "", COUNTED),                             \
+                 "1 2 3 -999 -777 6:19:1 300", " :scale_factor=#.01", COUNTED),          \
     .field = "u = 0.01 0.02 0.03 nan nan 0.06|0.18 0.19 nan\n",                          \
     .inventory = "missing 0.15\n"                                                        \
   }
@@ -44,12 +45,32 @@ static const situation SITUATIONS[] = {
      .field = "u = 1 2 nan 4 5 6 7 8 9 10 11 12 13 14 15 16 17 nan 19 20\n"},
     {.what = "a range of the unpacked type is of unpacked values",
      .file = PAIR("short ", " :scale_factor=#.01 :valid_range=#-1 1.5", "-200 200 2:19:1",
-                  "", COUNTED),
+                  " :scale_factor=#.01", COUNTED),
      .field = "u = nan nan 0.02 0.03",
      .inventory = "missing 0.1\n"},
+    {.what = "a missing value of the unpacked type is of unpacked values",
+     .file = PAIR("short ", " :scale_factor=#.5 :missing_value=#-3", "-6 2:20:1",
+                  " :scale_factor=#.5", COUNTED),
+     .field = "u = nan 1 1.5 2"},
+    {.what = "missing values and a range by texts",
+     .file = PAIR("short ", " :missing_value=-9 :valid_range=1, 19", COUNTED, "",
+                  "-9 2:20:1"),
+     .field = "u = 1 2 3|18 19 nan\nv = -9 2 3"},
+    {.what = "a packing that is no number",
+     .file = PAIR("short ", " :scale_factor=0,001 m/s", COUNTED, "", COUNTED),
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'u' has a scale_factor that is no number: '0,001 m/s'"},
+    {.what = "one of two components of whole numbers is packed",
+     .file = PAIR("short ", "", COUNTED, " :scale_factor=#.01", COUNTED),
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'v' has a scale_factor of 0.01, 'u' none, and both are whole numbers"},
+    {.what = "a packed component beside one that is not",
+     .file = PAIR("float ", "", COUNTED, " :scale_factor=#.01", COUNTED),
+     .field = "u = 1 2 3|\nv = 0.01 0.02"},
     {.what = "packing by texts",
-     .file = PAIR("short ", " :scale_factor=.5 :add_offset=-7", "-20:37:3", "", COUNTED),
-     .field = "u = -17 -15.5 -14 -12.5 -11|8.5 10 11.5\nv = 1 2 3 4"},
+     .file = PAIR("short ", " :scale_factor=.5 :add_offset=-7", "-20:37:3",
+                  " :scale_factor=2", COUNTED),
+     .field = "u = -17 -15.5 -14 -12.5 -11|8.5 10 11.5\nv = 2 4 6 8"},
     {.what = "unsigned bytes",
      .file = PAIR("byte ", " :_Unsigned=true", "5 -1 -128 127", "", COUNTED),
      .field = "u = 5 255 128 127 5"},

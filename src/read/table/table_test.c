@@ -66,6 +66,15 @@ static const situation SITUATIONS[] = {
          "1.5 10.0 7 1.15E+01 -2.5e-1\n2.5 10.0 7 12.5 -0.25\n\n3.5 10.0 nan 13.5 -0.25\n"
          "% half\n  1.5 20.0 7 2.15D1 -0.25\n2.5 20.0 7 22.5 -0.25\n3.5 20 7 23.5 -0.25",
      .field = SMALL},
+    {.what = "longitudes that count to the west by their name, or by a unit",
+     .text = "longitude_W,Latitude (deg N),u,v\n10,10,11.5,-.25\n9,10,12.5,-.25\n"
+             "8,10,13.5,-.25\n10,20,21.5,-.25\n9,20,22.5,-.25\n8,20,23.5,-.25\n",
+     .field = "geo 3 x 2|x = -10 -9 -8|u = 11.5 12.5 13.5 21.5"},
+    {.what = "the same, and a sign",
+     .text = "longitude_W,latitude,u,v\n-10,10,11.5,-.25\n-9,10,12.5,-.25\n"
+             "-10,20,13.5,-.25\n-9,20,21.5,-.25\n",
+     .status = FG_STATUS_FILE_FORMAT,
+     .refused = "'longitude_W' is in degrees_west by its name, and has -10"},
     {.what = "tabs, quotes, text among the numbers, decimal commas",
      .text =
          "\"name\"\t\"u\"\t\"v\"\t\"x\"\t\"y\"\n\"a \"\"b\"\"\"\t11,5\t-0,25\t1,5\t10\n"
