@@ -4,6 +4,7 @@
 #include "field/refused.h"
 #include "interpret/interpret.h"
 #include "terms/coordinates.h"
+#include "terms/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -147,28 +148,38 @@ static void describe_axis(fg__grid_axis *axis, const fg__variable *coordinate, i
   }
 }
 
-/* Refuses an axis whose units are those of longitudes and whose standard name or name is
- * that of latitudes, and the reverse. */
+/* Refuses an axis of which the units, the standard name or else the name, and the
+ * attribute `axis` do not all say that it is a longitude, or a latitude. */
 static void check_direction(fg__grid *grid, const fg__variable *coordinate)
 {
   static const char *const called[] = {"a longitude", "a latitude"};
-  char standard[FG__TEXT_BYTES], units[FG__TEXT_BYTES];
+  static const char *const attribute[] = {"standard_name", "units", "axis"};
+  enum { NAME, UNITS, AXIS, STATEMENTS };
+  char text[STATEMENTS][FG__TEXT_BYTES];
+  for (int n = 0; n < STATEMENTS; ++n)
+    fg__attribute_text(coordinate, attribute[n], text[n], sizeof text[n]);
   fg__unit unit;
-  fg__attribute_text(coordinate, "standard_name", standard, sizeof standard);
-  fg__attribute_text(coordinate, "units", units, sizeof units);
-  fg__unit_read(&unit, units);
-  const fg__term name = {.name = standard[0] ? standard : coordinate->plain_name};
-  const fg__role by_units = unit.quantity == FG__QUANTITY_DEGREES_EAST    ? FG__ROLE_X
-                            : unit.quantity == FG__QUANTITY_DEGREES_NORTH ? FG__ROLE_Y
-                                                                          : FG__NO_ROLE,
-                 by_name = fg__geographic_role(&name);
-  if (by_units == FG__NO_ROLE || by_name == FG__NO_ROLE || by_units == by_name)
-    return;
-  fg__set_unusable(grid->unusable, "'%.60s' is %s by its %s, and %s by its units %.40s",
-                   coordinate->plain_name, called[by_name == FG__ROLE_Y],
-                   standard[0] ? "standard name" : "name", called[by_units == FG__ROLE_Y],
-                   units);
-  snprintf(grid->hint, sizeof grid->hint, "correct one of them in the file");
+  fg__unit_read(&unit, text[UNITS]);
+  const fg__term name = {.name = text[NAME][0] ? text[NAME] : coordinate->plain_name};
+  const fg__role says[STATEMENTS] = {
+      fg__geographic_role(&name),
+      unit.quantity == FG__QUANTITY_DEGREES_EAST    ? FG__ROLE_X
+      : unit.quantity == FG__QUANTITY_DEGREES_NORTH ? FG__ROLE_Y
+                                                    : FG__NO_ROLE,
+      coordinate->geographic == FG__NO_ROLE ? FG__NO_ROLE
+      : fg__is_same(text[AXIS], "x")        ? FG__ROLE_X
+      : fg__is_same(text[AXIS], "y")        ? FG__ROLE_Y
+                                            : FG__NO_ROLE};
+  const char *const by[] = {text[NAME][0] ? "standard name" : "name", "units", "axis"};
+  for (int n = 1; n < STATEMENTS; ++n)
+    for (int m = 0; m < n; ++m)
+      if (says[n] != FG__NO_ROLE && says[m] != FG__NO_ROLE && says[n] != says[m]) {
+        fg__set_unusable(grid->unusable,
+                         "'%.60s' is %s by its %s, and %s by its %s %.40s",
+                         coordinate->plain_name, called[says[m] == FG__ROLE_Y], by[m],
+                         called[says[n] == FG__ROLE_Y], by[n], text[n]);
+        snprintf(grid->hint, sizeof grid->hint, "correct one of them in the file");
+      }
 }
 
 static bool is_longitude(const fg__grid_axis *axis)

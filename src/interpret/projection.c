@@ -235,6 +235,10 @@ static fg_status check(fg__grid *grid, const fg__dataset *data, const fg__variab
     fg__set_unusable(grid->unusable,
                      "the longitudes and latitudes of its points are not those of "
                      "its projection");
+    fg__doubt(grid->doubts,
+              "points lie up to %.3g cells from where the projection of '%.60s' has "
+              "them: their longitudes and latitudes are taken",
+              got.residual, described->plain_name);
   } else if (got.shift[0] != 0.0 || got.shift[1] != 0.0) {
     compose(grid, described, got.shift);
   }

@@ -127,6 +127,11 @@ static const situation SITUATIONS[] = {
      .file = "y[4]; x[5]; lon(x) ~ 9 x 1; lat(y) ~ 9 y 1; lat_v(y) ~ 19 y 1; float "
              "u(y,x) :coordinates=lat_v lon = 1; float v(y,x) :coordinates=lat_v lon = 1",
      .field = "geo |y = 19 20 21 22"},
+    {.what = "a longitude whose attribute says that it is along y",
+     .file = "lat[4] :units=degrees_north :axis=X = 10 20 30 40; lon[5] "
+             ":units=degrees_east :axis=Y = 1 2 3 4 5;" FLOW("lat,lon", "lat,lon"),
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'lat' is a latitude by its name, and a longitude by its axis X"},
     {.what = "the standard name says another frame than the long name",
      .file = "j[4]; i[5]; lon(j,i) ~ 9 i 1 j .2; lat(j,i) ~ 9 j 1; float u(j,i) "
              ":standard_name=eastward_wind :long_name=x component of wind = 1; float "

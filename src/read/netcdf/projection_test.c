@@ -127,6 +127,8 @@ static void positions_go_before_a_wrong_projection(void **state)
   fg_field *field = read_with(f, NULL);
   assert_int_equal(fg_field_contents(field)->scale, FG_SCALE_GEO);
   assert_null(fg_field_contents(field)->projection);
+  assert_non_null(strstr(fg_field_contents(field)->doubts,
+                         "from where the projection of 'crs' has them"));
   fg_field_destroy(field);
 }
 
