@@ -236,7 +236,7 @@ typedef struct said {
   int component; /* 0 to the east, 1 to the north; -1: nothing is known */
 } said;
 
-enum { SOURCES = 3 };
+enum { STANDARD_NAME = 1, SOURCES = 3 };
 
 /* What a component's name, standard name and long name say. */
 static bool list_said(said out[SOURCES], const fg__term *term)
@@ -277,17 +277,17 @@ fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pai
                        "one component is counted upward, the other downward: %ss '%.80s' "
                        "and '%.80s'",
                        of[0][n].source, of[0][n].text, of[1][n].text);
-  for (int n = 0; n < SOURCES; ++n)
-    for (int m = n + 1; m < SOURCES; ++m)
-      if (of[0][n].component >= 0 && of[0][n].component == of[1][m].component &&
-          of[1][n].component >= 0 && of[1][n].component == of[0][m].component &&
-          of[0][n].component != of[1][n].component)
-        fg__set_unusable(grid->unusable,
-                         "'%.60s' is the component to the %s by its %s, and to the %s by "
-                         "its %s '%.80s'",
-                         of[0][0].text, of[0][n].component ? "north" : "east",
-                         of[0][n].source, of[0][m].component ? "north" : "east",
-                         of[0][m].source, of[0][m].text);
+  for (int k = 0; k < 2; ++k)
+    for (int n = 0; n < SOURCES; ++n)
+      for (int m = n + 1; m < SOURCES; ++m)
+        if (of[k][n].component >= 0 && of[k][m].component == !of[k][n].component &&
+            (m == STANDARD_NAME || of[!k][m].component >= 0))
+          fg__set_unusable(grid->unusable,
+                           "'%.60s' is the component to the %s by its %s, and to the %s "
+                           "by its %s '%.80s'",
+                           of[k][0].text, of[k][n].component ? "north" : "east",
+                           of[k][n].source, of[k][m].component ? "north" : "east",
+                           of[k][m].source, of[k][m].text);
   if (grid->unusable[0])
     snprintf(grid->hint, sizeof grid->hint,
              "--vars EAST,NORTH takes them as they are named there");
@@ -331,6 +331,19 @@ static bool is_called_geographic(const fg__grid_axis *axis, int k)
   return (int)fg__geographic_role(&term) == k;
 }
 
+/* An attribute of a variable, its group or its file that states the distance of samples;
+ * NULL: none does. */
+static const char *find_spacing(const fg__variable *v)
+{
+  static const char *const names[] = {"gridSpacing", "spacing", "dx", "DX", "delta_x"};
+  const fg__variable *const of[] = {v, fg__group_of(v), fg__file_of(v)};
+  for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+    for (size_t k = 0; k < sizeof of / sizeof *of; ++k)
+      if (of[k] && fg__attribute_find(of[k], names[i]))
+        return names[i];
+  return NULL;
+}
+
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                             const fg_read_options *options)
 {
@@ -341,11 +354,14 @@ void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__p
                            is_counted(grid, data, pair, 1)};
   const fg__grid_axis *axis = grid->axis, *other = &axis[counted[0]];
   if (counted[0] != counted[1] && (other->quantity == FG__QUANTITY_DEGREES_EAST ||
-                                   other->quantity == FG__QUANTITY_DEGREES_NORTH))
-    fg__doubt(grid->doubts, "'%.60s' counts samples, beside '%.60s' in degrees",
-              axis[!counted[0]].name, other->name);
+                                   other->quantity == FG__QUANTITY_DEGREES_NORTH)) {
+    fg__set_unusable(grid->unusable, "'%.60s' counts samples, beside '%.60s' in degrees",
+                     axis[!counted[0]].name, other->name);
+    snprintf(grid->hint, sizeof grid->hint, "--scale plain takes their numbers");
+  }
   if (!counted[0] || !counted[1])
     return;
+  const char *spacing;
   const fg__variable *x = find_place(data, grid, pair, FG__ROLE_X),
                      *y = find_place(data, grid, pair, FG__ROLE_Y);
   if (x && y)
@@ -360,6 +376,10 @@ void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__p
     fg__doubt(grid->doubts,
               "axes count cells: '%.60s' and '%.60s' lie on faces without positions",
               pair->component[0]->plain_name, pair->component[1]->plain_name);
+  else if ((spacing = find_spacing(pair->component[0])))
+    fg__doubt(grid->doubts,
+              "axes count the samples of '%.60s': the attribute '%s' is not applied",
+              pair->component[0]->plain_name, spacing);
   else if (is_called_geographic(&axis[0], 0) || is_called_geographic(&axis[1], 1))
     fg__doubt(grid->doubts, "'%.60s' and '%.60s' count samples: they have no coordinates",
               axis[0].name, axis[1].name);

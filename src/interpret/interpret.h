@@ -176,8 +176,16 @@ void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__var
  * opposite, or that are counted to the west or south. MEMORY. */
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
 
+/* twice.c. Compares components that point east and north with speeds and directions of
+ * the same flow at the same points, in a few rows. Where most are more than 45 degrees
+ * apart, or half as fast again, the pair is unusable if their names say that they are of
+ * one flow, else doubted; so are components that are less than half as fast. MEMORY. */
+fg_status fg__compare_told_twice(fg__grid *grid, const fg__dataset *data,
+                                 const fg__pair *pair, const fg_read_options *options);
+
 /* Doubts a grid whose axes count samples, where the file has places, or names or faces
- * that tell of some. */
+ * that tell of some, or an attribute states their distance; and makes it unusable where
+ * only one counts samples and the other is in degrees. */
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                             const fg_read_options *options);
 

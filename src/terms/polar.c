@@ -332,6 +332,16 @@ fg_status fg__angles_check(const fg__angles *angles, fg_context *context,
                            const fg__polar *polar, const char *path, const char *name)
 {
   const bool radians = polar->unit == 1.0;
+  if (!radians && angles->least < -180.0 && angles->most - angles->least > 540.0) {
+    fg__fail(
+        context, FG_STATUS_ARGUMENT,
+        "%s: the direction '%.120s' goes from %g to %g degrees, more than a turn and "
+        "a half",
+        path, name, angles->least, angles->most);
+    fg__hint(context, "--missing VALUE masks a code; two-byte numbers that have grown "
+                      "beyond their range need the attribute _Unsigned in the file");
+    return FG_STATUS_ARGUMENT;
+  }
   if (!are_of_other_unit(angles, polar))
     return FG_STATUS_OK;
   fg__fail(context, FG_STATUS_ARGUMENT,

@@ -44,7 +44,8 @@ typedef struct fg__angles {
 
 void fg__angles_add(fg__angles *angles, double angle);
 
-/* ARGUMENT: the numbers are not in the unit that direction `name` of the file has. */
+/* ARGUMENT: the numbers are not in the unit that direction `name` of the file has, or
+ * more than a turn and a half apart, as two-byte numbers beyond their range are. */
 fg_status fg__angles_check(const fg__angles *angles, fg_context *context,
                            const fg__polar *polar, const char *path, const char *name);
 

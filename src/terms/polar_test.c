@@ -196,6 +196,8 @@ static void numbers_and_units_are_compared(void **state)
       {FG__RADIANS, 0.0, 4.0, NULL}, /* a steady wind */
       {FG__RADIANS, -180.0, 180.0, NULL},
       {FG__RADIANS, 2.0, 7.5, NULL},
+      {FG__RADIANS, -180.0, 360.0, NULL},
+      {FG__RADIANS, -327.68, 327.67, "goes from -327.68 to 327.67 degrees, more than a"},
   };
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
     enum { COUNT = 12 };

@@ -39,7 +39,7 @@ static const unit_row UNITS[] = {
     {TIME, 60.0, "min", "min|minute"},
     {TIME, 3600.0, "h", "h|hr|hour"},
     {TIME, 86400.0, "d", "d|day"},
-    {FG__QUANTITY_DEGREES, FG__RADIANS, "°", "deg|degree|arc_degree"},
+    {FG__QUANTITY_DEGREES, FG__RADIANS, "°", "deg|degree|degt|arc_degree"},
     {FG__QUANTITY_RADIANS, 1.0, "rad", "rad|radian"},
     {SPEED, 1852.0 / 3600.0, "kn", "kn|kt|knot"},
     {PRESSURE, 1.0, "Pa", "pa|pascal"},

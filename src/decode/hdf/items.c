@@ -137,8 +137,24 @@ static fg_status find_bytes(const unsigned char **out, fg__vtk *vtk, const xmlNo
   return FG_STATUS_OK;
 }
 
+/* Whether an item's Dimensions are an array's in another order, and not as many or as few
+ * as make one line of it. */
+static bool are_permuted(const size_t *length, int rank, const fg__variable *v)
+{
+  size_t said[FG__RANK], own[FG__RANK];
+  int sides[2] = {0, 0};
+  for (int k = 0; k < rank; ++k)
+    if (length[k] > 1)
+      said[sides[0]++] = length[k];
+  for (int k = 0; k < v->rank; ++k)
+    if (v->owner->dimensions[v->dimension[k]].length > 1)
+      own[sides[1]++] = v->owner->dimensions[v->dimension[k]].length;
+  return sides[0] == sides[1] && memcmp(said, own, (size_t)sides[0] * sizeof *own) != 0;
+}
+
 /* Compares what an item says with the file that it names. */
-static fg_status count_in_file(size_t *out, fg__vtk *vtk, const xmlNode *item, bool said)
+static fg_status count_in_file(size_t *out, fg__vtk *vtk, const xmlNode *item, bool said,
+                               const size_t *length, int rank)
 {
   const fg__variable *v;
   size_t there = 0;
@@ -150,6 +166,11 @@ static fg_status count_in_file(size_t *out, fg__vtk *vtk, const xmlNode *item, b
                       "%s: line %ld: Dimensions of %zu numbers, but '%.100s' of %s has "
                       "%zu",
                       vtk->path, xmlGetLineNo(item), *out, v->name, v->path, there);
+  if (status == FG_STATUS_OK && said && are_permuted(length, rank, v))
+    status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
+                      "%s: line %ld: Dimensions in another order than those of '%.100s' "
+                      "of %s",
+                      vtk->path, xmlGetLineNo(item), v->name, v->path);
   *out = there;
   return status;
 }
@@ -170,7 +191,7 @@ static fg_status count_item(size_t *out, fg__vtk *vtk, const xmlNode *item, int 
   if (status != FG_STATUS_OK)
     return status;
   if (kind == IN_HDF5)
-    return count_in_file(out, vtk, item, said);
+    return count_in_file(out, vtk, item, said, length, rank);
   if (kind == AS_BYTES)
     return find_bytes(&bytes, vtk, item, *out);
   for (int k = 0; kind != IN_MARKUP && status == FG_STATUS_OK; ++k) {

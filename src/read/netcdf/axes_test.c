@@ -148,7 +148,11 @@ static const situation SITUATIONS[] = {
          "plain 4 x 3|doubts 'axes count the samples of 'u': 'lon' does not lie there'"},
     {.what = "the same along an axis",
      .file = "lat[3]; lon[4] = 10 20 30 40;" FLOW("lat,lon", "lat,lon"),
-     .field = "doubts ''lat' counts samples, beside 'longitude' in degrees'"},
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'lat' counts samples, beside 'longitude' in degrees"},
+    {.what = "the same as numbers",
+     .options = {.scale = FG_SCALE_PLAIN},
+     .field = "plain 4 x 3|doubts ''"},
     {.what = "longitude and latitude without numbers",
      .file = "lat[3]; lon[4];" FLOW("lat,lon", "lat,lon"),
      .field =

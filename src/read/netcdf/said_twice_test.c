@@ -20,6 +20,9 @@ typedef struct statement {
   const char *axis_name[2];           /* their standard names */
   const char *name[2];                /* of the components */
   const char *standard[2], *words[2]; /* their standard and long names */
+  const char *beside[3]; /* a speed or direction: its name, units and standard name */
+  double value;          /* at all samples */
+  double spacing;        /* which the file states as dx; 0: it has places elsewhere */
   const char *vars;
   const char *refused, *doubt; /* words of the message, of the doubts */
 } statement;
@@ -27,6 +30,8 @@ typedef struct statement {
 #define GLOBE                                                                            \
   .dimension = {"lat", "lon"}, .axis = {"lat", "lon"},                                   \
   .units = {"degrees_north", "degrees_east"}
+
+#define WIND .name = {"ua", "va"}, .standard = {"eastward_wind", "northward_wind"}
 
 static const statement STATEMENTS[] = {
     {"all agree", GLOBE, .name = {"u", "v"},
@@ -64,6 +69,31 @@ static const statement STATEMENTS[] = {
     {"stresses counted up and down", GLOBE, .name = {"fx", "fy"},
      .standard = {"surface_upward_eastward_stress", "surface_downward_northward_stress"},
      .refused = "one component is counted upward, the other downward"},
+    {"components, and the direction that they have", GLOBE, WIND,
+     .beside = {"dir", "degree", "wind_from_direction"}, .value = 290.0},
+    {"the same toward", GLOBE, WIND, .beside = {"dir", "degree", "wind_to_direction"},
+     .value = 110.0},
+    {"another one", GLOBE, WIND, .beside = {"dir", "degree", "wind_from_direction"},
+     .value = 110.0,
+     .refused = "'ua' and 'va' are more than 45 degrees off the direction "
+                "'dir', at 48 of 48 samples compared"},
+    {"the same, as named", GLOBE, WIND,
+     .beside = {"dir", "degree", "wind_from_direction"}, .value = 110.0, .vars = "ua,va"},
+    {"a direction of the wind, beside what may be one", GLOBE, .name = {"u", "v"},
+     .beside = {"wind_dir", "degT"}, .value = 110.0,
+     .doubt = "'u' and 'v' are more than 45 degrees off the direction 'wind_dir'"},
+    {"a direction of the wind, beside a current", GLOBE, .name = {"uo", "vo"},
+     .standard = {"eastward_sea_water_velocity", "northward_sea_water_velocity"},
+     .beside = {"dir", "degree", "wind_from_direction"}, .value = 110.0},
+    {"components, and their speed in knots", GLOBE, WIND,
+     .beside = {"ws", "kt", "wind_speed"}, .value = 6.1},
+    {"a smaller one", GLOBE, WIND, .beside = {"ws", "m/s", "wind_speed"}, .value = 2.0,
+     .refused = "are more than half as fast again as the speed 'ws'"},
+    {"a larger one", GLOBE, WIND, .beside = {"ws", "m/s", "wind_speed"}, .value = 6.5,
+     .doubt = "'ua' and 'va' are less than half as fast as the speed 'ws'"},
+    {"both to the east by their standard names", GLOBE, .name = {"u", "v"},
+     .standard = {"eastward_wind", "eastward_wind"},
+     .refused = "'v' is the component to the north by its name, and to the east by its"},
     {"units of a longitude on a latitude", .dimension = {"y", "x"}, .axis = {"y", "x"},
      .units = {"degrees_east", "degrees_north"}, .axis_name = {"latitude", "longitude"},
      .name = {"u", "v"}, .refused = "by its standard name, and a l"},
@@ -76,6 +106,9 @@ static const statement STATEMENTS[] = {
      .name = {"vx", "vy"}},
     {"places along other dimensions", .dimension = {"r", "c"}, .name = {"u", "v"},
      .doubt = "axes count the samples of 'u': 'XG' and 'YG' do not lie there"},
+    {"a distance of samples that the file states", .dimension = {"r", "c"},
+     .name = {"u", "v"}, .spacing = 4000.0,
+     .doubt = "axes count the samples of 'u': the attribute 'dx' is not applied"},
 };
 
 static void put_variable(const sample_file *f, const char *name, const int *dimension,
@@ -109,7 +142,19 @@ static void write_statement(sample_file *f, const statement *s)
       put_variable(f, s->axis[k], &dimension[k], 1, 10.0, of_axis);
     put_variable(f, s->name[k], dimension, 2, k == 0 ? 3.0 : -1.0, of_component);
   }
-  if (!s->axis[0]) {
+  if (s->beside[0]) {
+    const int beside = sample_variable(f, s->beside[0], NC_DOUBLE, 2, dimension);
+    double values[ROWS * COLUMNS];
+    for (int n = 0; n < ROWS * COLUMNS; ++n)
+      values[n] = s->value;
+    sample_text(f, beside, "units", s->beside[1]);
+    if (s->beside[2])
+      sample_text(f, beside, "standard_name", s->beside[2]);
+    sample_put(f, beside, values);
+  }
+  if (s->spacing > 0.0) {
+    sample_number(f, NC_GLOBAL, "dx", NC_DOUBLE, s->spacing);
+  } else if (!s->axis[0]) {
     const int corners = sample_dimension(f, "corners", ROWS + 1);
     for (int k = 0; k < 2; ++k)
       put_variable(f, unused[k], &corners, 1, 10.0, of_unused[k]);
@@ -142,8 +187,8 @@ static void what_is_said_twice_agrees(void **state)
         assert_true((double)a->velocity[1][0] < -2.99);
       else
         assert_true((double)a->velocity[turned][0] == 3.0);
-      assert_true(a->axis[0][0] == (s->doubt ? 0.0 : 10.0));
-      assert_true(a->axis[1][1] - a->axis[1][0] == (s->doubt ? 1.0 : 2.0));
+      assert_true(a->axis[0][0] == (s->axis[0] ? 10.0 : 0.0));
+      assert_true(a->axis[1][1] - a->axis[1][0] == (s->axis[0] ? 2.0 : 1.0));
     }
     fg_field_destroy(field);
     fg_context_clear(f->context);
