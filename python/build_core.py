@@ -196,6 +196,7 @@ typedef struct fg_variables {
 typedef struct fg_vector_meaning {
   int component[3], coordinate[2], mask, side[2];
   bool is_polar, is_geographic, is_along_grid;
+  char doubts[512];
   ...;
 } fg_vector_meaning;
 fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,

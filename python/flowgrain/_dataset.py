@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +20,9 @@ UNPACKED = {"scale_factor", "add_offset", "_FillValue", "missing_value", "valid_
 ADVICE = {"axis '(.*)' is not strictly monotonic": "sort it: ds.sortby('{}')",
           "runs along .* a staggered grid$": "coordinates of the faces and the centres, or the "
           "faces' attribute c_grid_axis_shift, 0.5 or -0.5, say on which side they lie",
-          "nothing says whether": "frame='east' or frame='grid' says it"}  # fmt: skip
+          "nothing says whether": "frame='east' or frame='grid' says it",
+          "degrees off the direction|again as the speed|by its": "u and v are taken as they are "
+          "where they are named: u=..., v=..."}  # fmt: skip
 DATES = {"units": "seconds since 1970-01-01"}
 
 
@@ -124,6 +127,8 @@ def meaning(dataset: xr.Dataset, u: Any = None, v: Any = None,
     def name_of(n: int) -> Any:
         return source.names[n] if n >= 0 else None
 
+    for doubt in ffi.string(out.doubts).decode("utf-8", "replace").splitlines():
+        warnings.warn(doubt, stacklevel=4)
     components = [name_of(n) for n in out.component[0:2]]
     if out.is_polar:
         raise ValueError(f"{components[0]} and {components[1]} are a speed and its direction: "

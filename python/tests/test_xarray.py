@@ -167,6 +167,10 @@ def staggered(names, sides, counts, coordinates=True):
     return found
 
 
+COUNTED = pytest.mark.filterwarnings("ignore:axes count")
+
+
+@COUNTED
 @pytest.mark.parametrize("names, sides, counts, coordinates", [
     ((("XG", "XC"), ("YG", "YC")), (-1, -1), (6, 5), True),
     ((("XG", "XC"), ("YG", "YC")), (-1, -1), (6, 5), False),
@@ -192,6 +196,7 @@ def test_components_on_faces_become_means_at_the_centres(names, sides, counts, c
     assert np.allclose(found.u, u, equal_nan=True) and np.allclose(found.v, v, equal_nan=True)
 
 
+@COUNTED
 def test_walls_and_masks_of_staggered_grids():
     found = staggered((("xi_u", "xi_rho"), ("eta_v", "eta_rho")), (1, 1), (5, 4), False)
     found["u"][2, 1] = np.nan
@@ -255,6 +260,26 @@ def test_longitudes_may_count_to_the_west():
     for named in ({}, {"x": "lon", "y": "lat"}):
         one, other = (d.flowgrain.arrows(n=4, **named) for d in (found, west))
         assert [a.path.tolist() for a in one] == [a.path.tolist() for a in other]
+
+
+def test_what_is_unsure_is_a_warning():
+    found = dataset().rename(x="lon", y="lat").drop_vars(["lon", "lat"])
+    with pytest.warns(UserWarning, match="'lon' and 'lat' count samples"):
+        found.flowgrain.arrows(n=3)
+
+
+def test_components_are_compared_with_a_direction():
+    found = dataset(u="ua", v="va").rename(x="lon", y="lat")
+    for name, word in (("ua", "eastward"), ("va", "northward")):
+        found[name].attrs = {"standard_name": f"{word}_wind", "units": "m/s"}
+    toward = np.degrees(np.arctan2(found["ua"], found["va"]))
+    attrs = {"standard_name": "wind_to_direction", "units": "degree"}
+    same = found.assign(wd=toward.assign_attrs(attrs))
+    assert len(same.flowgrain.arrows(n=3)) == 3
+    other = found.assign(wd=(toward + 180.0).assign_attrs(attrs))
+    with pytest.raises(ValueError, match="off the direction 'wd'.*u and v are taken as they are"):
+        other.flowgrain.arrows(n=3)
+    assert len(other.flowgrain.arrows(u="ua", v="va", n=3)) == 3
 
 
 def test_refusals():
