@@ -26,12 +26,15 @@ ADVICE = {"axis '(.*)' is not strictly monotonic": "sort it: ds.sortby('{}')",
 DATES = {"units": "seconds since 1970-01-01"}
 
 
-def eastward(coordinate: Any) -> Any:
-    """A coordinate that counts to the east and north, though its units say west or south."""
+def eastward(coordinate: Any, degrees: bool) -> Any:
+    """A coordinate that counts to the east and north, though its units say west or south; in
+    degrees, though its units may be radians."""
     units = str(coordinate.attrs.get("units", "")).encode("utf-8", "replace")
-    west = any(lib.fg__unit_factor(units, unit) < 0
-               for unit in (b"degrees_east", b"degrees_north"))
-    return coordinate.copy(data=-coordinate.values) if west else coordinate
+    to = (b"degrees_east", b"degrees_north", *([b"degrees"] if degrees else []))
+    for factor in (lib.fg__unit_factor(units, unit) for unit in to):
+        if factor not in (0.0, 1.0):
+            return coordinate.copy(data=factor * coordinate.values)
+    return coordinate
 
 
 class Meaning(NamedTuple):

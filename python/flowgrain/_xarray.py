@@ -49,7 +49,9 @@ class DatasetFlowgrain:
         px, py = (first[first.dims[-1 - k]] if name is None else self._dataset[name]
                   for k, name in enumerate(found.coordinates if x is None else (x, y)))
         degrees = found.is_geographic and x in (None, found.coordinates[0])
-        px, py = eastward(px), eastward(py)
+        for variable in (*(data[k] for k in found.components), px, py):
+            _check_unpacked(variable)
+        px, py = eastward(px, degrees), eastward(py, degrees)
         plane = [*py.dims, *(d for d in px.dims if d not in py.dims)]
         if len(plane) != 2 or not set(plane) <= set(first.dims):
             raise ValueError(f"{px.name} and {py.name} have the dimensions {', '.join(plane)}; "
@@ -71,7 +73,7 @@ class DatasetFlowgrain:
             places = meaning(self._dataset, u, v, frame)
             at = [self._dataset[k] for k in places.coordinates if k is not None]
             if places.is_geographic and [set(c.dims) for c in at] == 2 * [set(plane)]:
-                lon, lat = (eastward(c).transpose(*plane).values for c in at)
+                lon, lat = (eastward(c, True).transpose(*plane).values for c in at)
                 east, north = turned(first.values, second.values, lon, lat, back=True)
                 first, second = first.copy(data=east), second.copy(data=north)
         return _Field(first, second, px, py, degrees, others)
@@ -186,6 +188,14 @@ class DatasetFlowgrain:
                 if not label:
                     put(_label(coordinate))
         return artist
+
+
+def _check_unpacked(variable: Any) -> None:
+    """xarray takes the attributes of what it has unpacked away."""
+    for key in ("scale_factor", "add_offset", "_FillValue", "missing_value", "_Unsigned"):
+        if variable.dtype.kind in "iu" and key in variable.attrs:
+            raise ValueError(f"{variable.name} has whole numbers and the attribute {key}: "
+                             "xr.decode_cf(ds) unpacks them")
 
 
 def _label(variable: Any) -> str:

@@ -262,6 +262,30 @@ def test_longitudes_may_count_to_the_west():
         assert [a.path.tolist() for a in one] == [a.path.tolist() for a in other]
 
 
+def test_longitudes_and_latitudes_in_two_dimensions():
+    """Also where they are those of axes, and others count samples."""
+    found = dataset().rename(x="lon", y="lat")
+    lon, lat = np.meshgrid(found["lon"], found["lat"])
+    plane = xr.Dataset({k: (("y", "x"), found[k].values) for k in "uv"},
+                       {"lon": (("y", "x"), lon), "lat": (("y", "x"), lat)})
+    counted = plane.assign_coords(x=np.arange(33), y=np.arange(25))
+    radians = found.assign_coords(
+        {k: found[k].copy(data=np.radians(found[k])).assign_attrs(units="radians")
+         for k in ("lon", "lat")})
+    one = found.flowgrain.arrows(n=4)
+    for other in (plane, counted, radians):
+        paths = [a.path for a in other.flowgrain.arrows(n=4)]
+        assert all(np.allclose(a.path, path, atol=1e-9) for a, path in zip(one, paths))
+
+
+def test_packed_numbers_are_refused():
+    found = dataset()
+    found["v"] = (100 * found["v"]).astype("i2").assign_attrs(scale_factor=0.01)
+    with pytest.raises(ValueError, match="v has whole numbers and the attribute scale_factor"):
+        found.flowgrain.arrows(n=3)
+    assert len(xr.decode_cf(found).flowgrain.arrows(n=3)) == 3
+
+
 def test_what_is_unsure_is_a_warning():
     found = dataset().rename(x="lon", y="lat").drop_vars(["lon", "lat"])
     with pytest.warns(UserWarning, match="'lon' and 'lat' count samples"):

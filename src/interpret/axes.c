@@ -192,6 +192,7 @@ fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
                              const fg__variable *coordinate)
 {
   fg__grid_axis *axis = &grid->axis[k];
+  axis->read_from = coordinate;
   describe_axis(axis, coordinate, k);
   check_direction(grid, coordinate);
   free(axis->coordinate);
@@ -217,6 +218,7 @@ fg_status fg__grid_axis_read(fg__grid *grid, const fg__dataset *data, int k,
 fg_status fg__grid_axis_count(fg__grid *grid, const fg__dataset *data, int k)
 {
   fg__grid_axis *axis = &grid->axis[k];
+  axis->read_from = NULL;
   free(axis->coordinate);
   axis->coordinate = fg__allocate(axis->size, sizeof *axis->coordinate);
   if (!axis->coordinate)

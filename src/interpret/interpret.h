@@ -114,12 +114,14 @@ int fg__roles_find_beside(int position[FG__ROLES], const fg__dataset *data,
                           const fg__variable *variable, int along);
 
 typedef struct fg__grid_axis {
-  int dimension;      /* index into the file's dimensions */
-  int position;       /* among the variable's dimensions */
-  size_t first;       /* first sample in the file */
-  size_t size;        /* samples that are used */
-  bool reversed;      /* the file's order is descending */
-  double *coordinate; /* [size], ascending */
+  int dimension;                 /* index into the file's dimensions */
+  int position;                  /* among the variable's dimensions */
+  size_t first;                  /* first sample in the file */
+  size_t size;                   /* samples that are used */
+  bool reversed;                 /* the file's order is descending */
+  double *coordinate;            /* [size], ascending */
+  const fg__variable *read_from; /* the coordinate, of one dimension or two; NULL: samples
+                                    are counted */
   double period;
   fg__quantity quantity;
   char name[FG__TEXT_BYTES];

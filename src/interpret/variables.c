@@ -61,8 +61,7 @@ static int number_of(const fg__variable *v)
   return v ? v->id : -1;
 }
 
-static void describe(fg_vector_meaning *out, const fg__dataset *data,
-                     const fg__pair *pair, const fg__grid *grid)
+static void describe(fg_vector_meaning *out, const fg__pair *pair, const fg__grid *grid)
 {
   const fg__curvilinear *mesh = grid->mesh;
   for (int k = 0; k < 3; ++k)
@@ -77,12 +76,8 @@ static void describe(fg_vector_meaning *out, const fg__dataset *data,
     out->coordinate[1] = number_of(at->latitude);
   }
   for (int k = 0; k < 2; ++k) {
-    /* of components on faces that across a direction lies on the centres along it */
-    const fg__variable *along = pair->component[grid->faces.used && k == 0 ? 1 : 0];
-    const fg__variable *at = mesh ? NULL : fg__grid_axis_coordinate(data, grid, along, k);
     if (!mesh)
-      out->coordinate[k] =
-          number_of(at ? at : fg__plane_coordinate(grid, data, along, (fg__role)k));
+      out->coordinate[k] = number_of(grid->axis[k].read_from);
     out->side[k] = mesh ? mesh->shift[k] : 0;
     if (grid->faces.used)
       out->side[k] = grid->faces.before[k] > 0 ? 1 : -1;
@@ -126,7 +121,7 @@ fg_status fg_vector_find(fg_vector_meaning *out, fg_context *context,
                       "file",
                       data.file[0].path, pair.component[0]->name);
   else if (status == FG_STATUS_OK)
-    describe(out, &data, &pair, &grid);
+    describe(out, &pair, &grid);
   fg__grid_clear(&grid);
   fg__dataset_close(&data);
   return status;

@@ -201,6 +201,11 @@ bool fg__units_seconds(const char *text, double *out)
   return *out > 0.0;
 }
 
+static bool is_angle(const fg__unit *unit)
+{
+  return unit->quantity == FG__QUANTITY_DEGREES || unit->quantity == FG__QUANTITY_RADIANS;
+}
+
 double fg__unit_factor(const char *from, const char *to)
 {
   fg__unit one, other;
@@ -208,8 +213,10 @@ double fg__unit_factor(const char *from, const char *to)
     return 1.0;
   fg__unit_read(&one, from);
   fg__unit_read(&other, to);
-  return one.quantity == other.quantity && other.factor != 0.0 ? one.factor / other.factor
-                                                               : 0.0;
+  const bool angles = is_angle(&one) && is_angle(&other);
+  return (one.quantity == other.quantity || angles) && other.factor != 0.0
+             ? one.factor / other.factor
+             : 0.0;
 }
 
 bool fg__is_unit_in_name(const char *word)

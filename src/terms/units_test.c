@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/angle.h"
 #include "base/context_test.h"
 #include "terms/dates.h"
 #include "terms/units.h"
@@ -99,7 +100,8 @@ static void units_have_factors(void **state)
       {"knots", "m/s", 1852.0 / 3600.0},
       {"km/h", "m s**-1", 1.0 / 3.6},
       {"degrees_east", "degrees_west", -1.0},
-      {"deg", "rad", 0.0},
+      {"rad", "degrees", 1.0 / FG__RADIANS},
+      {"rad", "degrees_east", 0.0},
   };
   (void)state;
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
