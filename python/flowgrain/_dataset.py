@@ -21,8 +21,8 @@ ADVICE = {"axis '(.*)' is not strictly monotonic": "sort it: ds.sortby('{}')",
           "runs along .* a staggered grid$": "coordinates of the faces and the centres, or the "
           "faces' attribute c_grid_axis_shift, 0.5 or -0.5, say on which side they lie",
           "nothing says whether": "frame='east' or frame='grid' says it",
-          "degrees off the direction|again as the speed|by its": "u and v are taken as they are "
-          "where they are named: u=..., v=..."}  # fmt: skip
+          "component to the .* by its|off the direction|again as the speed": "u and v are taken as "
+          "they are where they are named: u=..., v=..."}  # fmt: skip
 DATES = {"units": "seconds since 1970-01-01"}
 
 

@@ -48,6 +48,7 @@ class DatasetFlowgrain:
         first, second = centred(data, found)
         px, py = (first[first.dims[-1 - k]] if name is None else self._dataset[name]
                   for k, name in enumerate(found.coordinates if x is None else (x, y)))
+        px, py = _of_all_times(px), _of_all_times(py)
         degrees = found.is_geographic and x in (None, found.coordinates[0])
         for variable in (*(data[k] for k in found.components), px, py):
             _check_unpacked(variable)
@@ -188,6 +189,15 @@ class DatasetFlowgrain:
                 if not label:
                     put(_label(coordinate))
         return artist
+
+
+def _of_all_times(position: Any) -> Any:
+    """Positions in a plane that are the same for each time, as WRF has them."""
+    for dimension in position.dims[:-2]:
+        first = position.isel({dimension: 0}, drop=True)
+        if bool((position == first).all()):
+            position = first
+    return position
 
 
 def _check_unpacked(variable: Any) -> None:

@@ -272,8 +272,9 @@ def test_longitudes_and_latitudes_in_two_dimensions():
     radians = found.assign_coords(
         {k: found[k].copy(data=np.radians(found[k])).assign_attrs(units="radians")
          for k in ("lon", "lat")})
+    wrf = plane.rename(x="west_east", y="south_north").reset_coords().expand_dims(Time=1)
     one = found.flowgrain.arrows(n=4)
-    for other in (plane, counted, radians):
+    for other in (plane, counted, radians, wrf):
         paths = [a.path for a in other.flowgrain.arrows(n=4)]
         assert all(np.allclose(a.path, path, atol=1e-9) for a, path in zip(one, paths))
 
