@@ -5,11 +5,13 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
+#include "terms/dates.h"
 #include "terms/units.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Attributes are rounded. */
 static const double ROUNDING = 0.01;
@@ -152,6 +154,41 @@ static fg_status check_bounds(fg__grid *grid, const fg__dataset *data,
   }
   free(edge);
   return status;
+}
+
+/* Writes the date of a number in the unit of a coordinate of times; false: it is none. */
+static bool write_date(char out[FG__UNIT_BYTES], const fg__variable *times, double value)
+{
+  char units[FG__TEXT_BYTES], calendar[FG__TEXT_BYTES];
+  fg__attribute_text(times, "units", units, sizeof units);
+  fg__attribute_text(times, "calendar", calendar, sizeof calendar);
+  return fg__date_of_number(value, units, calendar, out, FG__UNIT_BYTES);
+}
+
+void fg__tell_time_bounds(fg__grid *grid, const fg__dataset *data)
+{
+  const fg__variable *times = grid->time_variable;
+  const fg__variable *bounds = times && fg__is_number(times) ? bounds_of(data, times) : 0;
+  double time, bound[2];
+  char date[3][FG__UNIT_BYTES], units[FG__TEXT_BYTES];
+  fg__unit unit;
+  const size_t first[2] = {0, 0};
+  if (!bounds || fg__variable_fetch_one(times, first, &time) ||
+      fg__variable_fetch(bounds, first, (size_t[]){1, 2}, bound)) {
+    fg_context_clear(data->context);
+    return;
+  }
+  fg__attribute_text(times, "units", units, sizeof units);
+  units[strcspn(units, " ")] = '\0'; /* "days" of "days since 1850-01-01" */
+  fg__unit_read(&unit, units);
+  const bool at_end = time == bound[1] && bound[1] > bound[0] &&
+                      (bound[1] - bound[0]) * unit.factor >= 86400.0;
+  const bool outside =
+      (time < bound[0] && time < bound[1]) || (time > bound[0] && time > bound[1]);
+  if ((at_end || outside) && write_date(date[0], times, time) &&
+      write_date(date[1], times, bound[0]) && write_date(date[2], times, bound[1]))
+    fg__doubt(grid->doubts, "times %s their bounds: %s that of %s to %s",
+              outside ? "lie outside" : "are the ends of", date[0], date[1], date[2]);
 }
 
 fg_status fg__check_extents(fg__grid *grid, const fg__dataset *data, const fg__pair *pair)

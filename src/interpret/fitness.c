@@ -2,6 +2,7 @@
  * hold, and at the same places. */
 #include "interpret/interpret.h"
 #include "terms/coordinates.h"
+#include "terms/dates.h"
 #include "terms/names.h"
 #include "terms/text.h"
 
@@ -146,6 +147,31 @@ static bool only_count(const fg__dataset *data, const fg__variable *of_a,
           fg__side_of_faces(data, of_a, 0) != fg__side_of_faces(data, of_b, 0));
 }
 
+static bool read_date(char out[FG__UNIT_BYTES], const fg__variable *v, size_t index)
+{
+  double value;
+  char units[FG__TEXT_BYTES], calendar[FG__TEXT_BYTES];
+  fg__attribute_text(v, "units", units, sizeof units);
+  fg__attribute_text(v, "calendar", calendar, sizeof calendar);
+  return fg__variable_fetch_one(v, &index, &value) == FG_STATUS_OK &&
+         fg__date_of_number(value, units, calendar, out, FG__UNIT_BYTES);
+}
+
+/* Whether two coordinates of n dates begin and end at the same (1) or others (0); -1:
+ * they are no dates. */
+static int compare_dates(const fg__variable *a, const fg__variable *b, size_t n)
+{
+  char of_a[FG__UNIT_BYTES], of_b[FG__UNIT_BYTES];
+  bool same = true;
+  for (int end = 0; end < 2; ++end) {
+    const size_t index = end ? n - 1 : 0;
+    if (!read_date(of_a, a, index) || !read_date(of_b, b, index))
+      return -1;
+    same = same && strcmp(of_a, of_b) == 0;
+  }
+  return same;
+}
+
 static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
                              const fg__variable *b, int k)
 {
@@ -159,11 +185,12 @@ static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
            (!by_name || strcmp(data->dimensions[a->dimension[k]].name,
                                data->dimensions[b->dimension[k]].name) == 0);
   return !only_count(data, of_a, of_b) && fits_file(data, of_a, n) &&
-         fits_file(data, of_b, n) && same_numbers(of_a, of_b, n, 0.0);
+         fits_file(data, of_b, n) &&
+         (same_numbers(of_a, of_b, n, 0.0) || compare_dates(of_a, of_b, n) == 1);
 }
 
-/* Whether two coordinates of n numbers, in one unit, have a value that differs by more
- * than rounding. */
+/* Whether two coordinates of n numbers, in one unit or as dates, have a value that
+ * differs by more than rounding. */
 static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
 {
   const size_t last = n - 1;
@@ -171,7 +198,9 @@ static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
   char of_a[FG__TEXT_BYTES], of_b[FG__TEXT_BYTES];
   fg__attribute_text(a, "units", of_a, sizeof of_a);
   fg__attribute_text(b, "units", of_b, sizeof of_b);
-  if (strcmp(of_a, of_b) != 0 || fg__variable_fetch_one(a, (size_t[]){0}, &first_value) ||
+  if (strcmp(of_a, of_b) != 0)
+    return compare_dates(a, b, n) == 0;
+  if (fg__variable_fetch_one(a, (size_t[]){0}, &first_value) ||
       fg__variable_fetch_one(a, &last, &last_value))
     return false;
   const double step = n > 1 ? fabs(last_value - first_value) / (double)last : 0.0;
@@ -179,11 +208,27 @@ static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
   return !same_numbers(a, b, n, rounding);
 }
 
+/* Refuses components whose times or levels, of n numbers each, differ. */
+static bool check_values(fg__grid *grid, const fg__dataset *data,
+                         const fg__variable *const component[2],
+                         const fg__variable *const of[2], size_t n)
+{
+  if (!of[0] || !of[1] || of[0] == of[1] || !fits_file(data, of[0], n) ||
+      !fits_file(data, of[1], n) || !differ(of[0], of[1], n))
+    return true;
+  fg__set_unusable(grid->unusable,
+                   "'%.60s' of '%.60s' and '%.60s' of '%.60s' have different values",
+                   of[0]->plain_name, component[0]->plain_name, of[1]->plain_name,
+                   component[1]->plain_name);
+  return false;
+}
+
 /* Compares times, levels and what else is not in the plane where components have
- * different dimensions for them. */
+ * different dimensions for them, or one value each. */
 static bool check_index_axes(fg__grid *grid, const fg__dataset *data,
                              const fg__variable *u, const fg__variable *v)
 {
+  const fg__variable *const component[2] = {u, v};
   int position[FG__ROLES];
   fg__roles_find(position, data, u);
   for (int k = 0; k < u->rank && u->rank == v->rank; ++k) {
@@ -192,14 +237,16 @@ static bool check_index_axes(fg__grid *grid, const fg__dataset *data,
     if (k == position[FG__ROLE_X] || k == position[FG__ROLE_Y] || a == b ||
         n != data->dimensions[b].length || n > MOST_COMPARED)
       continue;
-    const fg__variable *x = fg__coordinate(data, u, k);
-    const fg__variable *y = fg__coordinate(data, v, k);
-    if (!x || !y || !fits_file(data, x, n) || !fits_file(data, y, n) || !differ(x, y, n))
-      continue;
-    fg__set_unusable(grid->unusable,
-                     "'%.60s' of '%.60s' and '%.60s' of '%.60s' have different values",
-                     x->plain_name, u->plain_name, y->plain_name, v->plain_name);
-    return false;
+    const fg__variable *const of[2] = {fg__coordinate(data, u, k),
+                                       fg__coordinate(data, v, k)};
+    if (!check_values(grid, data, component, of, n))
+      return false;
+  }
+  for (int role = FG__ROLE_TIME; role <= FG__ROLE_LEVEL; ++role) {
+    const fg__variable *const of[2] = {fg__single_coordinate(data, u, (fg__role)role),
+                                       fg__single_coordinate(data, v, (fg__role)role)};
+    if (!check_values(grid, data, component, of, 1))
+      return false;
   }
   return true;
 }

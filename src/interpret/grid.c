@@ -467,6 +467,8 @@ fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair 
     status = fg__check_names(grid, data, pair);
   if (status == FG_STATUS_OK && is_usable(grid) && !options->vars)
     status = fg__compare_told_twice(grid, data, pair, options);
+  if (status == FG_STATUS_OK && is_usable(grid))
+    fg__tell_time_bounds(grid, data);
   return status;
 }
 

@@ -244,6 +244,10 @@ fg_status fg__check_extents(fg__grid *grid, const fg__dataset *data,
                             const fg__pair *pair);
 fg_status fg__check_mesh_extents(fg__grid *grid, const fg__dataset *data);
 
+/* Doubts times of which the first is the end of its bounds, a day or more (a mean of
+ * January that is dated 1 February, as CESM's are), or lies outside them. */
+void fg__tell_time_bounds(fg__grid *grid, const fg__dataset *data);
+
 /* axes.c. An axis that says nothing of itself is longitude or latitude where the options
  * say so. */
 void fg__call_geographic(fg__grid_axis *axis, int k);

@@ -71,10 +71,12 @@ static const char *find_direction(const char *plain)
   return NULL;
 }
 
-/* Whether a term is called as synoptic tables call the wind's direction (0) or speed. */
-static bool is_synoptic(const fg__term *term, int k)
+/* Whether a term is called as tables call the wind's direction (0) or speed in short,
+ * with a height perhaps: "dd", "wd10". */
+static bool is_short(const fg__term *term, int k)
 {
-  return fg__is_same(term->name, k == 0 ? "dd" : "ff");
+  static const char *const words[] = {"dd|wd", "ff|ws"};
+  return fg__is_one_of(words[k], term->name, strcspn(term->name, "_0123456789"));
 }
 
 /* Whether "from" is there, other than in "clockwise from north". */
@@ -128,7 +130,7 @@ static int sense_of(const fg__term *term)
   }
   return fg__contains_any(name, "wind|wave|swell|drct") ||
                  fg__contains_any(more, "wind|wave|swell") || fg__small(name[0]) == 'w' ||
-                 fg__is_same(name, "dd")
+                 is_short(term, 0)
              ? -1
              : 1;
 }
@@ -244,13 +246,14 @@ static int speed_by_name(const fg__term *terms, size_t count, const fg__term *di
   char plain[NAME_BYTES], other[NAME_BYTES];
   fg__plain_name(plain, sizeof plain, direction->name);
   const char *at = find_direction(plain);
-  for (int part = 0; part < 2 && (at || is_synoptic(direction, 0)); ++part)
+  for (int part = 0; part < 2 && (at || is_short(direction, 0)); ++part)
     for (size_t i = 0; i < count; ++i) {
       fg__plain_name(other, sizeof other, terms[i].name);
       if (terms[i].place != direction->place || terms[i].group != direction->group)
         continue;
       const char *rest = part || !at ? "" : at + strcspn(at, "_0123456789");
-      if (at ? is_speed_like(other, plain, at, rest) : is_synoptic(&terms[i], 1))
+      if (at ? is_speed_like(other, plain, at, rest)
+             : is_short(&terms[i], 1) && same_digits(terms[i].name, direction->name))
         return (int)i;
     }
   return -1;
@@ -259,7 +262,7 @@ static int speed_by_name(const fg__term *terms, size_t count, const fg__term *di
 int fg__speed_of(fg__polar *out, const fg__term *terms, size_t count, size_t direction)
 {
   const fg__term *way = &terms[direction];
-  if (!fg__direction_read(out, way) && !is_synoptic(way, 0))
+  if (!fg__direction_read(out, way) && !is_short(way, 0))
     return -1;
   const int named = standard_name(way)[0] ? -1 : speed_by_name(terms, count, way);
   return named >= 0 ? named : speed_by_standard_name(terms, count, way);
@@ -269,8 +272,8 @@ int fg__direction_among(fg__polar *out, const fg__term *a, const fg__term *b)
 {
   fg__polar of[2];
   const bool way[2] = {
-      fg__direction_read(&of[0], a) || (is_synoptic(a, 0) && is_synoptic(b, 1)),
-      fg__direction_read(&of[1], b) || (is_synoptic(b, 0) && is_synoptic(a, 1))};
+      fg__direction_read(&of[0], a) || (is_short(a, 0) && is_short(b, 1)),
+      fg__direction_read(&of[1], b) || (is_short(b, 0) && is_short(a, 1))};
   *out = of[way[1]];
   if (way[0] == way[1])
     *out = (fg__polar){0};

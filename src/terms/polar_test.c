@@ -18,6 +18,7 @@ static void names_have_a_sense(void **state)
       {"WDIR", "", -1},
       {"wd10", "", -1},
       {"dd", "", -1},
+      {"wd_10m", "", -1},
       {"drct", "", -1},
       {"dir", "direction of the wind", -1},
       {"dirfrom", "", -1},

@@ -17,6 +17,11 @@
   ":units=degrees_east ~ 200 x 2 y .3; float u(y,x) :standard_name=eastward_wind = 1; "  \
   "float v(y,x) :standard_name=northward_wind = 2;" attributes
 
+#define MONTHS(times, bounds)                                                            \
+  "n[2]; lat[4] :units=degrees_north = 10 12 14 16; lon[5] :units=degrees_east = 200 "   \
+  "202 204 206 208; time[2] :units=days since 2001-01-01 :bounds=time_b = " times        \
+  "; time_b(time,n) = " bounds "; float u(time,lat,lon) = 1; float v(time,lat,lon) = 2;"
+
 #define AGREES(what_, file_)                                                             \
   {                                                                                      \
     .what = what_, .file = file_, .field = "geo 5 x 4|doubts ''"                         \
@@ -73,6 +78,18 @@ static const situation SITUATIONS[] = {
     REFUSED("cells of the other hemisphere",
             BOUNDED("-17 -15 -15 -13 -13 -11 -11 -9", "199 201 201 203 203 205 205 207"),
             "'lat' lies outside the cells of 'lat_b', its bounds, at 4 of 4 samples"),
+
+    AGREES("times within their bounds", MONTHS("15 45", "0 31 31 59")),
+    AGREES("times at which their bounds begin", MONTHS("0 31", "0 31 31 59")),
+    AGREES("times at which hours end", MONTHS("1 1.125", ".875 1 1 1.125")),
+    {.what = "times at which months end",
+     .file = MONTHS("31 59", "0 31 31 59"),
+     .field = "doubts 'times are the ends of their bounds: 2001-02-01 that of 2001-01-01 "
+              "to 2001-02-01'"},
+    {.what = "times outside their bounds",
+     .file = MONTHS("75 105", "0 31 31 59"),
+     .field = "doubts 'times lie outside their bounds: 2001-03-17 that of 2001-01-01 to "
+              "2001-02-01'"},
 };
 
 SITUATIONS_MAIN("read/netcdf/extent", SITUATIONS)

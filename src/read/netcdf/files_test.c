@@ -67,6 +67,14 @@
     .options = {.at = at_}, .status = status_, .refused = words                          \
   }
 
+#define SQUARE_AND                                                                       \
+  "lat[2] :units=degrees_north = 40 41; lon[2] :units=degrees_east = 5 6; "
+#define DATED(name, units, value)                                                        \
+  SQUARE_AND "time[1] :units=" units " = " value "; float " name "(time,lat,lon) = 1;"
+#define SINGLE(name, value)                                                              \
+  SQUARE_AND "time() :units=days since 2000-01-01 = " value "; float " name              \
+             "(lat,lon) :coordinates=time = 1;"
+
 static const situation SITUATIONS[] = {
     {.what = "half of a pair",
      .file = AXES ONE("u") ONE("temperature"),
@@ -164,6 +172,21 @@ static const situation SITUATIONS[] = {
      .file = U_LAYERS(DEPTHS),
      .second = V_LAYERS(".5 12 100"),
      .refused = "'depthu' of 'uo' and 'depthv' of 'vo' have different values"},
+    {.what = "one date of two units",
+     .file = DATED("u", "days since 2000-01-02", "0"),
+     .second = DATED("v", "hours since 2000-01-01", "24"),
+     .options = {.vars = "u,v"},
+     .field = "time '2000-01-02'"},
+    {.what = "two dates of equal numbers",
+     .file = DATED("u", "days since 2000-01-01", "0"),
+     .second = DATED("v", "days since 2001-01-01", "0"),
+     .options = {.vars = "u,v"},
+     .refused = "'time' of 'u' and 'time' of 'v' have different values"},
+    {.what = "single dates",
+     .file = SINGLE("u", "0"),
+     .second = SINGLE("v", "31"),
+     .options = {.vars = "u,v"},
+     .refused = "'time' of 'u' and 'time' of 'v' have different values"},
 };
 
 static void situations_are_read_or_refused(void **state)

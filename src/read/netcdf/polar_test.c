@@ -141,7 +141,7 @@ static void they_are_read_as_components(void **state)
       {{ON_AXES, 1, RADIANS, "degree", "sea_water_speed",
         "direction_of_sea_water_velocity"},
        "ws,wd"},
-      {{ON_AXES, -1, RADIANS, "degrees true", NULL, NULL}, "ws,wd"},
+      {{ON_AXES, -1, RADIANS, "degrees true", NULL, NULL}, NULL},
       {{ON_AXES, -1, 1.0, "radians", NULL, NULL}, "wd,ws"},
       {{ON_AXES, -1, RADIANS, "degree", "sea_surface_wave_significant_height",
         "sea_surface_wave_from_direction"},
@@ -277,7 +277,10 @@ static void what_cannot_be_turned_is_refused(void **state)
   write_file(f, &degrees);
   refuse_with(f, &(fg_read_options){.frame = FG_FRAME_GRID}, FG_STATUS_UNSUPPORTED,
               "'wd' is a direction from north, not from the grid's lines");
-  write_file(f, &unnamed);
+  sample_begin(f, 0);
+  define_places(f, ON_AXES, dimension);
+  add_variable(f, &unnamed, dimension, 1);
+  sample_end(f);
   refuse_with(f, NULL, FG_STATUS_UNSUPPORTED, "no vectors found");
   assert_string_equal(fg_context_hint(f->context),
                       "name the speed with its direction: --vars SPEED,wd");
