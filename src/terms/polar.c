@@ -229,14 +229,22 @@ static int speed_by_standard_name(const fg__term *terms, size_t count,
   return found;
 }
 
+/* The length of a plain name without the unit at its end: of "wind_speed_kt". */
+static size_t without_unit(const char *name)
+{
+  const char *last = strrchr(name, '_');
+  return last && fg__is_unit_in_name(last + 1) ? (size_t)(last - name) : strlen(name);
+}
+
 /* Whether a name is a direction's with a word for a speed in place of its own, which is
- * at `at`, and then `rest`. */
+ * at `at`, and then `rest`, or a unit where there is no rest. */
 static bool is_speed_like(const char *name, const char *direction, const char *at,
                           const char *rest)
 {
-  const size_t before = (size_t)(at - direction), end = strlen(rest), all = strlen(name);
+  const size_t before = (size_t)(at - direction), end = strlen(rest),
+               all = end > 0 ? strlen(name) : without_unit(name);
   return all > before + end && strncmp(name, direction, before) == 0 &&
-         strcmp(name + all - end, rest) == 0 &&
+         strncmp(name + all - end, rest, end) == 0 &&
          fg__is_one_of(SPEEDS, name + before, all - before - end);
 }
 

@@ -98,6 +98,8 @@ static void units_have_factors(void **state)
       {"m s-1", "meters per second", 1.0},
       {"m/s", "cm/s", 100.0},
       {"knots", "m/s", 1852.0 / 3600.0},
+      {"mph", "mi/h", 1.0},
+      {"kph", "km/h", 1.0},
       {"km/h", "m s**-1", 1.0 / 3.6},
       {"degrees_east", "degrees_west", -1.0},
       {"rad", "degrees", 1.0 / FG__RADIANS},

@@ -382,6 +382,22 @@ static bool is_numbers(const fg__variable *v)
   return fg__is_array(v) && v->rank < FG__RANK;
 }
 
+/* Refuses a plane whose places are in two units of one quantity. */
+static void check_units(fg__grid *grid)
+{
+  const fg__variable *const *place = grid->unstructured->node;
+  char label[3][FG__TEXT_BYTES];
+  for (int k = 0; k < grid->dimension && place[k]; ++k) {
+    const fg__quantity quantity = fg__units_of(place[k], label[k], sizeof label[k]);
+    if (k == 0 || !label[0][0] || strcmp(label[0], label[k]) == 0 ||
+        quantity != fg__units_of(place[0], NULL, 0))
+      continue;
+    fg__set_unusable(grid->unusable, "'%.60s' is in %.40s, '%.60s' in %.40s: no plane",
+                     place[0]->plain_name, label[0], place[k]->plain_name, label[k]);
+    snprintf(grid->hint, sizeof grid->hint, "--scale plain takes their numbers");
+  }
+}
+
 fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
                                 const fg__pair *pair, const fg_read_options *options)
 {
@@ -418,5 +434,7 @@ fg_status fg__unstructured_find(fg__grid *grid, const fg__dataset *data,
     grid->scale = options->scale;
     mesh->in_plane = true;
   }
+  if (mesh->in_plane && options->scale != FG_SCALE_PLAIN && !grid->unusable[0])
+    check_units(grid);
   return status;
 }

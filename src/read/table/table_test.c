@@ -75,6 +75,15 @@ static const situation SITUATIONS[] = {
              "-10,20,13.5,-.25\n-9,20,21.5,-.25\n",
      .status = FG_STATUS_FILE_FORMAT,
      .refused = "'longitude_W' is in degrees_west by its name, and has -10"},
+    {.what = "places in two units",
+     .text = "x [mm],y [m],u,v\n1,10,11.5,-.25\n2,10,12.5,-.25\n1,20,13.5,-.25\n"
+             "2,20,21.5,-.25\n",
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "'x' is in mm, 'y' in m: no plane"},
+    {.what = "a speed and its direction with their units",
+     .text = "lon,lat,wind_speed_kt,wind_dir_deg\n1,10,2,270\n2,10,3,270\n1,20,4,270\n"
+             "2,20,5,270\n",
+     .field = "geo 2 x 2|u = 2 3 4 5"},
     {.what = "tabs, quotes, text among the numbers, decimal commas",
      .text =
          "\"name\"\t\"u\"\t\"v\"\t\"x\"\t\"y\"\n\"a \"\"b\"\"\"\t11,5\t-0,25\t1,5\t10\n"
