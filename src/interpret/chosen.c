@@ -16,8 +16,7 @@ enum { MOST_SAMPLES = 1000000 };
 /* The coordinate of a dimension, or its dates as text, or NULL. */
 static const fg__variable *coordinate_of(const fg__dataset *data, int dimension)
 {
-  const fg__variable along = {.rank = 1, .dimension = {dimension}};
-  const fg__variable *coordinate = fg__coordinate(data, &along, 0);
+  const fg__variable *coordinate = fg__coordinate_along(data, dimension, NULL);
   return coordinate ? coordinate : fg__date_texts(data, dimension);
 }
 

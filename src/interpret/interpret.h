@@ -84,6 +84,10 @@ void fg__pair_polar_words(char *out, size_t size, const fg__pair *pair);
 const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
                                    int k);
 
+/* The same of a dimension, and the variable that lies along it; NULL: whichever. */
+const fg__variable *fg__coordinate_along(const fg__dataset *data, int dimension,
+                                         const fg__variable *variable);
+
 /* A coordinate of one value of that role which is along none of the variable's
  * dimensions (CF conventions, section 5.7): the variable names it, or the file does. Of
  * time it has dates. NULL: none. */

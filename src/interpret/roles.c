@@ -49,12 +49,14 @@ static void consider_name(called *c, const fg__variable *v, bool named)
   c->fits = fits;
 }
 
-/* Whether a variable names a coordinate, or xarray lists it for the file. */
+/* Whether a variable names a coordinate, or xarray lists it for the file; NULL: none does.
+ */
 static bool is_named(const fg__variable *variable, const fg__variable *coordinate)
 {
   char names[FG__TEXT_BYTES];
-  const fg__variable *root = fg__file_of(variable);
-  const fg__variable *of[] = {variable, root};
+  if (!variable)
+    return false;
+  const fg__variable *of[] = {variable, fg__file_of(variable)};
   for (int k = 0; k < 2; ++k)
     if (fg__attribute_text(of[k], "coordinates", names, sizeof names) &&
         fg__is_listed(names, coordinate->plain_name))
@@ -65,10 +67,9 @@ static bool is_named(const fg__variable *variable, const fg__variable *coordinat
 /* The coordinate of a dimension: the variable of its name; else one whose attributes say
  * that it is one, which the variable names where it names any; else one with a place's
  * name. */
-const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
-                                   int k)
+const fg__variable *fg__coordinate_along(const fg__dataset *data, int dimension,
+                                         const fg__variable *variable)
 {
-  const int dimension = variable->dimension[k];
   const fg__variable *otherwise = NULL;
   called by_name = {NULL, FG__NO_ROLE, 0};
   for (size_t i = 0; i < data->variable_count; ++i) {
@@ -83,6 +84,12 @@ const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *
     consider_name(&by_name, v, is_named(variable, v));
   }
   return otherwise || by_name.role == FG__NO_ROLE ? otherwise : by_name.best;
+}
+
+const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
+                                   int k)
+{
+  return fg__coordinate_along(data, variable->dimension[k], variable);
 }
 
 static bool has_dimension(const fg__variable *v, int dimension)
