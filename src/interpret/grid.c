@@ -465,8 +465,6 @@ fg_status fg__grid_find(fg__grid *grid, const fg__dataset *data, const fg__pair 
     fg__check_polar(grid, pair, options);
   if (status == FG_STATUS_OK && is_usable(grid) && !options->vars)
     status = fg__check_names(grid, data, pair);
-  if (status == FG_STATUS_OK && is_usable(grid) && !options->vars)
-    status = fg__compare_told_twice(grid, data, pair, options);
   if (status == FG_STATUS_OK && is_usable(grid))
     fg__tell_time_bounds(grid, data);
   return status;

@@ -165,8 +165,10 @@ static bool add_found(pair_list *pairs, const fg__dataset *data, const candidate
                      .rank = v->rank,
                      .is_velocity = v->is_velocity};
     int components = 0, across = -1;
-    for (int k = 0; k < 2 && rules.at_points && v->component[2] >= 0; ++k)
-      if (v->component[k] >= 0 && is_plane_across(data, k))
+    const bool three =
+        v->component[0] >= 0 && v->component[1] >= 0 && v->component[2] >= 0;
+    for (int k = 0; k < 2 && rules.at_points && three; ++k)
+      if (is_plane_across(data, k))
         across = k;
     if (v->component[1] >= 0 && !has_own_name(all->variable[v->component[1]]))
       pair.found_by = "columns";

@@ -175,9 +175,11 @@ fg_status fg__compare_told_twice(fg__grid *grid, const fg__dataset *data,
   for (size_t i = 0; i < data->variable_count && !grid->unusable[0]; ++i) {
     const fg__variable *v = &data->variables[i];
     fg__polar polar;
+    if (v == pair->component[0] || v == pair->component[1] ||
+        !lies_at(v, pair->component[0]))
+      continue;
     const int of_v = flow_of(v);
-    if (of_v <= 0 || (flow != 0 && of_v != flow) || v == pair->component[0] ||
-        v == pair->component[1] || !lies_at(v, pair->component[0]))
+    if (of_v <= 0 || (flow != 0 && of_v != flow))
       continue;
     const fg__term term = fg__term_of(v);
     const bool is_speed = fg__names_speed(v->plain_name) ||

@@ -23,8 +23,10 @@ static const fg__variable *find_named(const fg__mesh_search *search, fg__column_
   int fits = 0;
   for (size_t i = 0; i < search->data->variable_count; ++i) {
     const fg__variable *v = &search->data->variables[i];
+    if (is_component(search, v) || !fg__search_lies(search, v, rank))
+      continue;
     const int here = fg__column_fits(v->plain_name, use);
-    if (here > fits && !is_component(search, v) && fg__search_lies(search, v, rank)) {
+    if (here > fits) {
       best = v;
       fits = here;
     }

@@ -75,6 +75,10 @@ static const situation SITUATIONS[] = {
              "-10,20,13.5,-.25\n-9,20,21.5,-.25\n",
      .status = FG_STATUS_FILE_FORMAT,
      .refused = "'longitude_W' is in degrees_west by its name, and has -10"},
+    {.what = "a plane along x and z, and components along y and z",
+     .text = "x,z,v,w\n0,0,1,1\n1,0,1,2\n0,1,1,3\n1,1,1,4\n",
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "no vectors found among its 4 variables"},
     {.what = "places in two units",
      .text = "x [mm],y [m],u,v\n1,10,11.5,-.25\n2,10,12.5,-.25\n1,20,13.5,-.25\n"
              "2,20,21.5,-.25\n",
