@@ -5,7 +5,6 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "interpret/curvilinear/curvilinear.h"
-#include "terms/dates.h"
 #include "terms/units.h"
 
 #include <math.h>
@@ -156,15 +155,6 @@ static fg_status check_bounds(fg__grid *grid, const fg__dataset *data,
   return status;
 }
 
-/* Writes the date of a number in the unit of a coordinate of times; false: it is none. */
-static bool write_date(char out[FG__UNIT_BYTES], const fg__variable *times, double value)
-{
-  char units[FG__TEXT_BYTES], calendar[FG__TEXT_BYTES];
-  fg__attribute_text(times, "units", units, sizeof units);
-  fg__attribute_text(times, "calendar", calendar, sizeof calendar);
-  return fg__date_of_number(value, units, calendar, out, FG__UNIT_BYTES);
-}
-
 void fg__tell_time_bounds(fg__grid *grid, const fg__dataset *data)
 {
   const fg__variable *times = grid->time_variable;
@@ -185,8 +175,9 @@ void fg__tell_time_bounds(fg__grid *grid, const fg__dataset *data)
                       (bound[1] - bound[0]) * unit.factor >= 86400.0;
   const bool outside =
       (time < bound[0] && time < bound[1]) || (time > bound[0] && time > bound[1]);
-  if ((at_end || outside) && write_date(date[0], times, time) &&
-      write_date(date[1], times, bound[0]) && write_date(date[2], times, bound[1]))
+  if ((at_end || outside) && fg__write_date(date[0], FG__UNIT_BYTES, times, time) &&
+      fg__write_date(date[1], FG__UNIT_BYTES, times, bound[0]) &&
+      fg__write_date(date[2], FG__UNIT_BYTES, times, bound[1]))
     fg__doubt(grid->doubts, "times %s their bounds: %s that of %s to %s",
               outside ? "lie outside" : "are the ends of", date[0], date[1], date[2]);
 }

@@ -2,7 +2,6 @@
  * hold, and at the same places. */
 #include "interpret/interpret.h"
 #include "terms/coordinates.h"
-#include "terms/dates.h"
 #include "terms/names.h"
 #include "terms/text.h"
 
@@ -147,25 +146,19 @@ static bool only_count(const fg__dataset *data, const fg__variable *of_a,
           fg__side_of_faces(data, of_a, 0) != fg__side_of_faces(data, of_b, 0));
 }
 
-static bool read_date(char out[FG__UNIT_BYTES], const fg__variable *v, size_t index)
-{
-  double value;
-  char units[FG__TEXT_BYTES], calendar[FG__TEXT_BYTES];
-  fg__attribute_text(v, "units", units, sizeof units);
-  fg__attribute_text(v, "calendar", calendar, sizeof calendar);
-  return fg__variable_fetch_one(v, &index, &value) == FG_STATUS_OK &&
-         fg__date_of_number(value, units, calendar, out, FG__UNIT_BYTES);
-}
-
 /* Whether two coordinates of n dates begin and end at the same (1) or others (0); -1:
  * they are no dates. */
 static int compare_dates(const fg__variable *a, const fg__variable *b, size_t n)
 {
   char of_a[FG__UNIT_BYTES], of_b[FG__UNIT_BYTES];
+  double at_a, at_b;
   bool same = true;
   for (int end = 0; end < 2; ++end) {
     const size_t index = end ? n - 1 : 0;
-    if (!read_date(of_a, a, index) || !read_date(of_b, b, index))
+    if (fg__variable_fetch_one(a, &index, &at_a) ||
+        !fg__write_date(of_a, FG__UNIT_BYTES, a, at_a) ||
+        fg__variable_fetch_one(b, &index, &at_b) ||
+        !fg__write_date(of_b, FG__UNIT_BYTES, b, at_b))
       return -1;
     same = same && strcmp(of_a, of_b) == 0;
   }

@@ -401,6 +401,9 @@ fg_status fg__read_all(double *out, const fg__dataset *data,
  * names share, else the title of their file or group, else their names. */
 void fg__vector_title(const fg__pair *pair, int components, char *out, size_t size);
 
+/* Writes the date of a number in the unit of times; false: it is none. */
+bool fg__write_date(char *out, size_t size, const fg__variable *times, double value);
+
 /* Describes the time or level of an index; `name` is the dimension's. */
 fg_status fg__index_words(const fg__variable *coordinate, const char *name, size_t index,
                           char *out, size_t size);

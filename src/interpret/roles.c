@@ -49,7 +49,8 @@ static void consider_name(called *c, const fg__variable *v, bool named)
   c->fits = fits;
 }
 
-/* Whether a variable names a coordinate, or xarray lists it for the file; NULL: none does.
+/* Whether a variable names a coordinate, or xarray lists it for the file; NULL: none
+ * does.
  */
 static bool is_named(const fg__variable *variable, const fg__variable *coordinate)
 {

@@ -192,21 +192,26 @@ static bool write_flag(const fg__variable *coordinate, double value, char *out,
   return false;
 }
 
+bool fg__write_date(char *out, size_t size, const fg__variable *times, double value)
+{
+  char units[FG__TEXT_BYTES], calendar[FG__TEXT_BYTES];
+  fg__attribute_text(times, "units", units, sizeof units);
+  fg__attribute_text(times, "calendar", calendar, sizeof calendar);
+  return fg__date_of_number(value, units, calendar, out, size);
+}
+
 /* Writes a coordinate's value as text, pressures of the air in hPa. */
 static void write_words(const fg__variable *coordinate, double value, char *out,
                         size_t size)
 {
   char units[FG__TEXT_BYTES];
   char label[FG__TEXT_BYTES];
-  char calendar[FG__TEXT_BYTES];
   fg__attribute_text(coordinate, "units", units, sizeof units);
-  fg__attribute_text(coordinate, "calendar", calendar, sizeof calendar);
   const fg__quantity quantity = fg__units_read(units, label, sizeof label);
   if (!fg__is_number(coordinate) && fg__date_of_seconds(value, out, size))
     return; /* a column of dates */
   if (write_flag(coordinate, value, out, size) ||
-      (quantity == FG__QUANTITY_DATE &&
-       fg__date_of_number(value, units, calendar, out, size)) ||
+      (quantity == FG__QUANTITY_DATE && fg__write_date(out, size, coordinate, value)) ||
       fg__duration(value, units, out, size))
     return;
   if (quantity == FG__QUANTITY_PRESSURE && strcmp(label, "Pa") == 0 &&
