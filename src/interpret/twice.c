@@ -63,6 +63,8 @@ static size_t read_rows(double out[MOST_SAMPLES], const fg__dataset *data,
   const size_t length = data->dimensions[v->dimension[last]].length;
   const size_t rows = has_rows ? data->dimensions[v->dimension[across]].length : 1;
   const size_t wanted = rows < MOST_ROWS ? rows : MOST_ROWS;
+  if (wanted == 0)
+    return 0;
   count[last] = length < MOST_SAMPLES / wanted ? length : MOST_SAMPLES / wanted;
   for (size_t n = 0; n < wanted && last != grid->time && last != grid->level; ++n) {
     if (has_rows)

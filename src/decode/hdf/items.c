@@ -141,7 +141,7 @@ static fg_status find_bytes(const unsigned char **out, fg__vtk *vtk, const xmlNo
  * as make one line of it. */
 static bool are_permuted(const size_t *length, int rank, const fg__variable *v)
 {
-  size_t said[FG__RANK], own[FG__RANK];
+  size_t said[FG__RANK] = {0}, own[FG__RANK] = {0};
   int sides[2] = {0, 0};
   for (int k = 0; k < rank; ++k)
     if (length[k] > 1)
