@@ -243,7 +243,9 @@ const char *fg__units_of_name(const char *name)
   for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
     if (fg__is_one_of(rows[i][1], plain, strlen(plain)))
       return rows[i][0];
-  return "";
+  const char *last = strrchr(plain, '_');
+  const unit_row *unit = last ? find_unit(last + 1) : NULL;
+  return unit && unit->quantity == SPEED ? unit->label : "";
 }
 
 bool fg__fill_radians(const double longitude[2], const double latitude[2])

@@ -48,8 +48,8 @@ bool fg__units_seconds(const char *text, double *out);
  * to "d"; from no unit 1. 0: they measure different things, or one is not known. */
 double fg__unit_factor(const char *from, const char *to);
 
-/* The units that a column's name implies, "kn" of METAR's sknt, "degrees_west" of
- * longitude_W; "": none. */
+/* The units that a column's name implies, "kn" of METAR's sknt and wind_speed_kt,
+ * "degrees_west" of longitude_W; "": none. */
 const char *fg__units_of_name(const char *name);
 
 /* ARGUMENT: longitudes and latitudes that are in degrees fill the globe in radians. */

@@ -87,7 +87,7 @@ static const situation SITUATIONS[] = {
     {.what = "a speed and its direction with their units",
      .text = "lon,lat,wind_speed_kt,wind_dir_deg\n1,10,2,270\n2,10,3,270\n1,20,4,270\n"
              "2,20,5,270\n",
-     .field = "geo 2 x 2|u = 2 3 4 5"},
+     .field = "geo 2 x 2|units 'kn'|u = 2 3 4 5"},
     {.what = "tabs, quotes, text among the numbers, decimal commas",
      .text =
          "\"name\"\t\"u\"\t\"v\"\t\"x\"\t\"y\"\n\"a \"\"b\"\"\"\t11,5\t-0,25\t1,5\t10\n"
