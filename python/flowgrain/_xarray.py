@@ -195,7 +195,7 @@ def _of_all_times(position: Any) -> Any:
     """Positions in a plane that are the same for each time, as WRF has them."""
     for dimension in position.dims[:-2]:
         first = position.isel({dimension: 0}, drop=True)
-        if bool((position == first).all()):
+        if position.sizes[dimension] == 1 or bool((position == first).all()):
             position = first
     return position
 

@@ -426,7 +426,7 @@ fg_status fg__choose_vector(fg__pair *pair, fg__grid *grid, const fg__dataset *d
   } else if (status == FG_STATUS_OK) {
     status = choose_best(pair, grid, data, &all, options);
     if (status == FG_STATUS_OK)
-      status = fg__compare_told_twice(grid, data, pair, options);
+      status = fg__check_polar_beside(grid, data, pair, options);
     if (status == FG_STATUS_OK && grid->unusable[0])
       status = fail_unusable(data, pair, grid);
   }

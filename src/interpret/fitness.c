@@ -4,6 +4,7 @@
 #include "terms/coordinates.h"
 #include "terms/names.h"
 #include "terms/text.h"
+#include "terms/units.h"
 
 #include <limits.h>
 #include <math.h>
@@ -182,8 +183,25 @@ static bool same_coordinates(const fg__dataset *data, const fg__variable *a,
          (same_numbers(of_a, of_b, n, 0.0) || compare_dates(of_a, of_b, n) == 1);
 }
 
-/* Whether two coordinates of n numbers, in one unit or as dates, have a value that
- * differs by more than rounding. */
+/* Whether two coordinates of n numbers in two units, of which one is `factor` of the
+ * other where both are known, begin or end at other dates or numbers. */
+static bool have_other_ends(const fg__variable *a, const fg__variable *b, size_t n,
+                            double factor, bool known)
+{
+  const int dates = compare_dates(a, b, n);
+  double at_a, at_b;
+  bool other = dates == 0;
+  for (int end = 0; end < 2 && dates < 0 && known && factor != 0.0; ++end) {
+    const size_t index = end ? n - 1 : 0;
+    other = other || (!fg__variable_fetch_one(a, &index, &at_a) &&
+                      !fg__variable_fetch_one(b, &index, &at_b) &&
+                      fabs(factor * at_a - at_b) > 1e-4 * fabs(at_b));
+  }
+  return other;
+}
+
+/* Whether two coordinates of n numbers have a value that differs by more than rounding.
+ */
 static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
 {
   const size_t last = n - 1;
@@ -192,7 +210,7 @@ static bool differ(const fg__variable *a, const fg__variable *b, size_t n)
   fg__attribute_text(a, "units", of_a, sizeof of_a);
   fg__attribute_text(b, "units", of_b, sizeof of_b);
   if (strcmp(of_a, of_b) != 0)
-    return compare_dates(a, b, n) == 0;
+    return have_other_ends(a, b, n, fg__unit_factor(of_a, of_b), of_a[0] && of_b[0]);
   if (fg__variable_fetch_one(a, (size_t[]){0}, &first_value) ||
       fg__variable_fetch_one(a, &last, &last_value))
     return false;

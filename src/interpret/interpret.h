@@ -84,7 +84,7 @@ void fg__pair_polar_words(char *out, size_t size, const fg__pair *pair);
 const fg__variable *fg__coordinate(const fg__dataset *data, const fg__variable *variable,
                                    int k);
 
-/* The same of a dimension, and the variable that lies along it; NULL: whichever. */
+/* The same of a dimension, and the variable that lies along it, or NULL. */
 const fg__variable *fg__coordinate_along(const fg__dataset *data, int dimension,
                                          const fg__variable *variable);
 
@@ -182,11 +182,11 @@ void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__var
  * opposite, or that are counted to the west or south. MEMORY. */
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
 
-/* twice.c. Compares components that point east and north with speeds and directions of
+/* polar_beside.c. Compares components that point east and north with speeds and directions of
  * the same flow at the same points, in a few rows. Where most are more than 45 degrees
  * apart, or half as fast again, the pair is unusable if their names say that they are of
  * one flow, else doubted; so are components that are less than half as fast. MEMORY. */
-fg_status fg__compare_told_twice(fg__grid *grid, const fg__dataset *data,
+fg_status fg__check_polar_beside(fg__grid *grid, const fg__dataset *data,
                                  const fg__pair *pair, const fg_read_options *options);
 
 /* Doubts a grid whose axes count samples, where the file has places, or names or faces

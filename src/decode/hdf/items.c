@@ -137,19 +137,18 @@ static fg_status find_bytes(const unsigned char **out, fg__vtk *vtk, const xmlNo
   return FG_STATUS_OK;
 }
 
-/* Whether an item's Dimensions are an array's in another order, and not as many or as few
- * as make one line of it. */
-static bool are_permuted(const size_t *length, int rank, const fg__variable *v)
+/* Whether an item states as many sides longer than 1 as an array has, and other ones. */
+static bool has_other_sides(const size_t *length, int rank, const fg__variable *v)
 {
-  size_t said[FG__RANK] = {0}, own[FG__RANK] = {0};
+  size_t stated[FG__RANK] = {0}, own[FG__RANK] = {0};
   int sides[2] = {0, 0};
   for (int k = 0; k < rank; ++k)
     if (length[k] > 1)
-      said[sides[0]++] = length[k];
+      stated[sides[0]++] = length[k];
   for (int k = 0; k < v->rank; ++k)
     if (v->owner->dimensions[v->dimension[k]].length > 1)
       own[sides[1]++] = v->owner->dimensions[v->dimension[k]].length;
-  return sides[0] == sides[1] && memcmp(said, own, (size_t)sides[0] * sizeof *own) != 0;
+  return sides[0] == sides[1] && memcmp(stated, own, (size_t)sides[0] * sizeof *own) != 0;
 }
 
 /* Compares what an item says with the file that it names. */
@@ -166,10 +165,9 @@ static fg_status count_in_file(size_t *out, fg__vtk *vtk, const xmlNode *item, b
                       "%s: line %ld: Dimensions of %zu numbers, but '%.100s' of %s has "
                       "%zu",
                       vtk->path, xmlGetLineNo(item), *out, v->name, v->path, there);
-  if (status == FG_STATUS_OK && said && are_permuted(length, rank, v))
+  if (status == FG_STATUS_OK && said && has_other_sides(length, rank, v))
     status = fg__fail(vtk->context, FG_STATUS_FILE_FORMAT,
-                      "%s: line %ld: Dimensions in another order than those of '%.100s' "
-                      "of %s",
+                      "%s: line %ld: Dimensions other than those of '%.100s' of %s",
                       vtk->path, xmlGetLineNo(item), v->name, v->path);
   *out = there;
   return status;

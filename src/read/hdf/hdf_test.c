@@ -299,7 +299,7 @@ static const struct {
     {"<Grid>" EVEN VECTOR(HDF5("4 5 3", "U")) "</Grid>",
      "Dimensions of 60 numbers, but 'U' of", 0, 0, NULL},
     {"<Grid>" EVEN VECTOR(HDF5("5 4 2", "U")) "</Grid>",
-     "Dimensions in another order than those of 'U'", 0, 0, NULL},
+     "Dimensions other than those of 'U' of", 0, 0, NULL},
     {"<Grid>" EVEN VECTOR(HDF5("2 4 5 4", "wide")) "</Grid>", "no vectors found", 0, 0,
      NULL},
     {"<Grid>" EVEN VECTOR(ITEM("7", ">1 2 3 4 5 6 7")) "</Grid>",

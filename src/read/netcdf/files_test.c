@@ -47,13 +47,15 @@
   "y[14] :units=km ~ " y " y 1; x[16] :units=km ~ " x " x 1; " component "(y,x) = 1.5"
 
 /* NEMO's depths have a name of their own in each file. */
-#define LAYERS(component, depth, list, lat, lon, attributes, speed)                      \
-  depth                                                                                  \
-      "[3] :units=m = " list "; y[14]" DEGREES("north") " ~ " lat " y 2; x[16]" DEGREES( \
-          "east") " ~ " lon " x 2; " component "(" depth ",y,x)" attributes " ~ " speed  \
-                  " " depth " " speed
-#define U_LAYERS(list) LAYERS("uo", "depthu", list, "33", "-20", AT_X, "1")
-#define V_LAYERS(list) LAYERS("vo", "depthv", list, "34", "-21", AT_Y, "2")
+#define LAYERS(component, depth, units, list, lat, lon, attributes, speed)               \
+  depth "[3] :units=" units " = " list "; y[14]" DEGREES(                                \
+      "north") " ~ " lat " y 2; x[16]" DEGREES("east") " ~ " lon " x 2; " component      \
+                                                       "(" depth ",y,x)" attributes      \
+                                                       " ~ " speed " " depth " " speed
+#define U_LAYERS(list) LAYERS("uo", "depthu", "m", list, "33", "-20", AT_X, "1")
+#define V_LAYERS_IN(units, list)                                                         \
+  LAYERS("vo", "depthv", units, list, "34", "-21", AT_Y, "2")
+#define V_LAYERS(list) V_LAYERS_IN("m", list)
 #define DEPTHS ".5 10 100"
 #define LAYER(at_, level_)                                                               \
   {                                                                                      \
@@ -182,6 +184,14 @@ static const situation SITUATIONS[] = {
      .second = DATED("v", "days since 2001-01-01", "0"),
      .options = {.vars = "u,v"},
      .refused = "'time' of 'u' and 'time' of 'v' have different values"},
+    {.what = "levels in two units",
+     .file = U_LAYERS(DEPTHS),
+     .second = V_LAYERS_IN("cm", "50 1000 10000"),
+     .field = "level 'depth 0.5 m'"},
+    {.what = "levels of equal numbers in two units",
+     .file = U_LAYERS(DEPTHS),
+     .second = V_LAYERS_IN("km", ".5 10 100"),
+     .refused = "'depthu' of 'uo' and 'depthv' of 'vo' have different values"},
     {.what = "single dates",
      .file = SINGLE("u", "0"),
      .second = SINGLE("v", "31"),

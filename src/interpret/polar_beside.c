@@ -8,13 +8,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { MOST_ROWS = 8, MOST_SAMPLES = 4096, FEWEST = 20 };
 
 /* Words of names by which flows are told apart, and of what is no vector of the flow. */
 static const char *const FLOWS[] = {"wind|air|wdir|wspd", "water|current|ocean"};
-static const char OTHERS[] = "wave|swell|stress|gust|std|dev|err|var|flag|quality|qc|max";
+static const char OTHERS[] = "wave|swell|stress|gust|std|dev|err|var|flag|quality|qc|max|"
+                             "sound|platform|relative";
+static const char SPEEDS[] = "speed|spd|sknt"; /* a "velocity" may be a component */
 
 /* 1 + the flow of FLOWS that a variable is called after; 0: none; -1: something else. */
 static int flow_of(const fg__variable *v)
@@ -135,7 +136,7 @@ static void compare(fg__grid *grid, samples *s, const fg__dataset *data,
   s->count = read_rows(s->other, data, v, grid, options);
   const tally t = compare_samples(s, polar, of_speed / of_component);
   const bool slow = 2 * t.slow > t.compared;
-  if (t.compared < FEWEST || (!slow && 2 * t.off < t.compared))
+  if (t.compared < FEWEST || (!slow && 2 * t.off <= t.compared))
     return;
   const fg__term term = fg__term_of(v);
   char text[FG__REASON_BYTES];
@@ -165,7 +166,7 @@ static bool points_east(const fg__grid *grid)
   return grid->points_east || grid->scale == FG_SCALE_GEO;
 }
 
-fg_status fg__compare_told_twice(fg__grid *grid, const fg__dataset *data,
+fg_status fg__check_polar_beside(fg__grid *grid, const fg__dataset *data,
                                  const fg__pair *pair, const fg_read_options *options)
 {
   if (pair->polar.sense != 0 || !pair->is_velocity || grid->rate || grid->faces.used ||
@@ -184,8 +185,8 @@ fg_status fg__compare_told_twice(fg__grid *grid, const fg__dataset *data,
     if (of_v <= 0 || (flow != 0 && of_v != flow))
       continue;
     const fg__term term = fg__term_of(v);
-    const bool is_speed = fg__names_speed(v->plain_name) ||
-                          (term.standard_name && strstr(term.standard_name, "_speed"));
+    const bool is_speed =
+        fg__contains_any(term.standard_name ? term.standard_name : term.name, SPEEDS);
     const bool is_direction = fg__direction_read(&polar, &term) && polar.unit > 0.0;
     if (!is_direction && !is_speed)
       continue;
