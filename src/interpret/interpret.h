@@ -182,16 +182,17 @@ void fg__check_dimensions(fg__grid *grid, const fg__dataset *data, const fg__var
  * opposite, or that are counted to the west or south. MEMORY. */
 fg_status fg__check_names(fg__grid *grid, const fg__dataset *data, const fg__pair *pair);
 
-/* polar_beside.c. Compares components that point east and north with speeds and directions of
- * the same flow at the same points, in a few rows. Where most are more than 45 degrees
- * apart, or half as fast again, the pair is unusable if their names say that they are of
- * one flow, else doubted; so are components that are less than half as fast. MEMORY. */
+/* polar_beside.c. Compares components that point east and north with speeds and
+ * directions of the same flow at the same points, in a few rows. Where most are more than
+ * 45 degrees apart, or half as fast again, the pair is unusable if their names say that
+ * they are of one flow, else doubted; so are components that are less than half as fast.
+ * MEMORY. */
 fg_status fg__check_polar_beside(fg__grid *grid, const fg__dataset *data,
                                  const fg__pair *pair, const fg_read_options *options);
 
-/* Doubts a grid whose axes count samples, where the file has places, or names or faces
- * that tell of some, or an attribute states their distance; and makes it unusable where
- * only one counts samples and the other is in degrees. */
+/* counted.c. Doubts a grid whose axes count samples, where the file has places, or names
+ * or faces that tell of some, or an attribute states their distance; and makes it
+ * unusable where only one counts samples and the other is in degrees. */
 void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__pair *pair,
                             const fg_read_options *options);
 
@@ -200,7 +201,7 @@ void fg__tell_unused_places(fg__grid *grid, const fg__dataset *data, const fg__p
  * nothing says. */
 int fg__side_of_faces(const fg__dataset *data, const fg__variable *v, int position);
 
-/* Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
+/* fitness.c. Compares the components' dimensions. A staggered grid (Arakawa's C grid) has
  * different ones for each: the grid is then off_axes, and unusable unless mesh/ can read
  * it. */
 void fg__check_shapes(fg__grid *grid, const fg__dataset *data, const fg__variable *u,
