@@ -105,23 +105,14 @@ static fg_status read_slice(fg_field **out, fg_context *context, const fg_input 
 {
   fg_field *volume = NULL, *whole = NULL;
   fg_plane plane;
-  fg_read_options of_volume = *options;
-  const fg__field_region region = fg__region_asked(options);
-  fg_map_options map;
-  if (region.axes == 2) { /* in the plane of the cut */
-    map = *options->map;
-    map.has_region = false;
-    of_volume.map = &map;
-  }
-  fg_status status =
-      read_slab(&volume, context, input, &of_volume, (fg__slab_index){0, 1});
+  fg_status status = read_slab(&volume, context, input, options, (fg__slab_index){0, 1});
   if (status == FG_STATUS_OK)
     status = fg_plane_parse(&plane, context, options->slice, volume);
   if (status == FG_STATUS_OK)
     status = fg_field_slice(&whole, context, volume, &plane);
   fg_field_destroy(volume);
-  if (status == FG_STATUS_OK && region.axes == 2)
-    status = fg__region_cut(&whole, context, input->name, &region);
+  if (status == FG_STATUS_OK)
+    status = fg__region_cut(&whole, context, input->name, &input->of_cut);
   if (status == FG_STATUS_OK && slab.count > 1) {
     status = fg__field_slab_of(out, context, whole, slab);
     fg_field_destroy(whole);
@@ -146,18 +137,19 @@ static uint64_t bits_of(double number)
 }
 
 /* Parts that were read otherwise do not belong together. */
-static uint64_t key_of_reading(const char *input, const fg_read_options *options)
+static uint64_t key_of_reading(const fg_input *input, const fg_read_options *options)
 {
-  uint64_t key = mix_text(0, input);
+  uint64_t key = mix_text(0, input->name);
   key =
       mix_text(mix_text(mix_text(key, options->vars), options->vars_from), options->mask);
   key = mix_text(key, options->missing);
   key =
       mix_text(mix_text(mix_text(key, options->mesh_from), options->at), options->slice);
   key = mix_text(key, fg__map_is_asked(options->map) ? options->map->projection : NULL);
-  const fg__field_region region = fg__region_asked(options);
-  for (int k = 0; k < region.axes; ++k)
-    key = fg__mix(fg__mix(key ^ bits_of(region.low[k])) ^ bits_of(region.high[k]));
+  const fg__field_region asked = fg__region_asked(options);
+  const fg__field_region *region = asked.axes > 0 ? &asked : &input->of_cut;
+  for (int k = 0; k < region->axes; ++k)
+    key = fg__mix(fg__mix(key ^ bits_of(region->low[k])) ^ bits_of(region->high[k]));
   key = fg__mix(key ^ (uint64_t)options->frame);
   return fg__mix(fg__mix(key ^ (uint64_t)options->time) ^ (uint64_t)options->level);
 }
@@ -169,7 +161,7 @@ static fg_status sign_slab(fg_field *field, fg_context *context, const fg_input 
   fg__field_slab *slab = field ? field->slab : NULL;
   if (!slab)
     return FG_STATUS_OK;
-  slab->key ^= key_of_reading(input->name, options);
+  slab->key ^= key_of_reading(input, options);
   slab->input = fg__copy_text(input->name);
   return slab->input ? FG_STATUS_OK
                      : fg__fail_memory(context, "a name", strlen(input->name) + 1);
@@ -251,6 +243,19 @@ static fg_status answer_here(fg__answer *out, fg_context *context, fg_input *inp
   return status;
 }
 
+/* A region of two axes is one of a cut, and the volume is read whole. */
+static void take_options(fg_input *input, const fg_read_options *options)
+{
+  input->options = *options;
+  const fg__field_region region = fg__region_asked(options);
+  if (!options->slice || region.axes != 2)
+    return;
+  input->of_cut = region;
+  input->volume_map = *options->map;
+  input->volume_map.has_region = false;
+  input->options.map = &input->volume_map;
+}
+
 fg_status fg_input_open(fg_input **out, fg_context *context, const char *input,
                         const fg_read_options *options)
 {
@@ -262,7 +267,7 @@ fg_status fg_input_open(fg_input **out, fg_context *context, const char *input,
   opened->name = input;
   opened->answer = answer_here;
   if (options)
-    opened->options = *options;
+    take_options(opened, options);
   if (strncmp(input, SYNTHETIC, sizeof SYNTHETIC - 1) == 0)
     return FG_STATUS_OK;
   fg_status status =

@@ -35,7 +35,9 @@ typedef struct fg__answer {
 
 struct fg_input {
   const char *name;
-  fg_read_options options; /* without time and level */
+  fg_read_options options; /* without time and level, and what is `of_cut` */
+  fg__field_region of_cut; /* in the plane of a cut: not of the volume */
+  fg_map_options volume_map;
   fg__source source;
   const fg__format *format; /* NULL: an analytic field */
   fg__kept kept;

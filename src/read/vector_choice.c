@@ -83,6 +83,7 @@ static fg_status check_used(const fg__dataset *data, int number, const fg__pair 
 static void close_choice(void *data)
 {
   fg__vector_choice *c = data;
+  c->data.context = NULL; /* that of an earlier question may be gone */
   fg__grid_clear(&c->grid);
   fg__dataset_end(&c->data, FG_STATUS_OK);
   free(c);
@@ -114,23 +115,26 @@ static fg_status choose(fg__vector_choice *c, fg_context *context,
   return status;
 }
 
-/* Whether the choice holds for a time: where a table's rows have times and levels, each
- * time has levels of its own. */
-static bool is_of_time(const fg__vector_choice *c, int time)
+/* Whether the choice holds for a question. Decoders that open but one time keep the
+ * context. Where a table's rows have times and levels, each time has levels of its own. */
+static bool holds(const fg__vector_choice *c, const fg_context *context,
+                  const fg__format *format, int time)
 {
   const fg__unstructured *mesh = c->grid.unstructured;
-  return time == c->time || !mesh || !mesh->rows_time.value || !mesh->rows_level.variable;
+  const bool by_time =
+      format->is_chosen || (mesh && mesh->rows_time.value && mesh->rows_level.variable);
+  return (time == c->time || !by_time) &&
+         (context == c->data.context || !format->is_chosen);
 }
 
 fg_status fg__vector_choice_enter(fg__vector_choice **out, fg_context *context,
                                   const fg__format *format, const fg__source *source,
                                   const fg_read_options *options)
 {
-  /* what options open depends on their time and block */
-  fg__kept *kept = format->is_chosen ? NULL : source->kept;
+  fg__kept *kept = source->kept;
   fg__vector_choice *c = kept ? kept->data : NULL;
   *out = NULL;
-  if (c && !is_of_time(c, options->time)) {
+  if (c && !holds(c, context, format, options->time)) {
     close_choice(c);
     c = kept->data = NULL;
   }

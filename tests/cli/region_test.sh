@@ -52,6 +52,8 @@ cut column '[23, 15, 13]' '[1.1, 6.3, -1.5, 1.9, 0, 3]' volume.csv --region=1.1,
 cut slice '[23, 9]' '[1.1, 6.3, 0.3, 2.1]' volume.csv --slice y=0.1 --region=1.1,6.3,0.3,2.1
 cut sliced '[23, 9]' '[1.1, 6.3, 0.3, 2.1]' volume.csv --slice y=0.1 --region=1.1,6.3,-1,1,0.3,2.1
 cmp -s slice/scale-00.geojson sliced/scale-00.geojson || fault "a box that is cut, and a cut that is bounded, differ"
+try synth abc -o abc.nc --nodes 17
+cut netcdf '[8, 7]' '[0.2, 0.6, 0.6, 0.9]' abc.nc --slice y=0.5 --region=0.2,0.6,0.6,0.9
 cut whole '[41, 17]' '[0, 10, -2, 2]' plane.csv --region=0,10,-2,2
 try run plane.csv -o all "${run[@]}"
 cmp -s <(grep -v region whole/scale-00.geojson) <(grep -v region all/scale-00.geojson) || fault "a region that is all changes arrows"

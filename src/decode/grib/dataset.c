@@ -146,7 +146,7 @@ static void close_file(void *state)
 {
   fg__grib_file *file = state;
   if (file->owns_source)
-    fg__source_close(&file->source, file->context, FG_STATUS_OK);
+    fg__source_close(&file->source, NULL, FG_STATUS_OK);
   for (size_t i = 0; i < file->grids; ++i)
     fg__grib_grid_clear(&file->grid[i]);
   for (size_t i = 0; i < file->axes; ++i)

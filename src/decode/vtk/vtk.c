@@ -88,7 +88,7 @@ void fg__vtk_close(fg__vtk *vtk)
     if (file->vtk)
       fg__vtk_close(file->vtk);
     free(file->vtk);
-    (void)fg__source_close(&file->source, vtk->context, FG_STATUS_OK);
+    (void)fg__source_close(&file->source, NULL, FG_STATUS_OK);
     free(file->path);
   }
   free(vtk->files);
