@@ -50,9 +50,9 @@ static const char *const COLUMNS[] = {
                      "points_1|coordinates_1|northing|y_0",
     [FG__COLUMN_Z] = Z_NAMES,
     [FG__COLUMN_LONGITUDE] = "lon|long|longitude|lng|nav_lon|xlong|glon|lon_deg|"
-                             "longitude_deg|lon_e|degrees_east|lon_dd",
+                             "longitude_deg|lon_e|degrees_east|lon_dd|lond",
     [FG__COLUMN_LATITUDE] = "lat|latitude|nav_lat|xlat|glat|lat_deg|latitude_deg|lat_n|"
-                            "degrees_north|lat_dd",
+                            "degrees_north|lat_dd|latd",
     [FG__COLUMN_LEVEL] = Z_NAMES "|height|depth|level|lev|plane",
     [FG__COLUMN_TIME] = "time|t|time_s|timestep|time_step|step|snapshot|date|datetime|"
                         "date_time|timestamp|time_utc|date_utc|valid_time",

@@ -57,7 +57,7 @@ static const char OTHERS[] =
 /* Words of what is derived from a component, but is none; and how others begin. */
 static const char SPOILING[] =
     "sd|se|unc|var|num|nobs|lon|lat|count|rms|rmse|area|angle|index|longitude|weight|"
-    "latitude|variance|status|pos|position|coord|coordinate|coordinates|points";
+    "latitude|variance|status|qal|pos|position|coord|coordinate|coordinates|points";
 static const char SPOILING_STARTS[] =
     "err|qc|qartod|flag|std|uncert|qual|mask|bnds|bounds";
 

@@ -46,7 +46,9 @@ void fg__table_name(fg__table_column *column, const char *text, size_t size)
   for (end = open; end < size && !strchr("])", text[end]);)
     ++end;
   copy_text(column->units, "", 0);
-  if (open > 0 && open < size) {
+  if (open == 0 && size > 0 && end + 1 == size) { /* "(cm/s)", below the names */
+    copy_text(column->name, text + 1, end - 1);
+  } else if (open > 0 && open < size) {
     copy_text(column->units, text + open + 1, end - open - 1);
     while (open > 0 && text[open - 1] == ' ')
       --open;
@@ -82,10 +84,16 @@ static bool next_name(fg__table_field *name, const fg__table_line *line, size_t 
 static bool split_names(fg__table_column *out, const fg__table *table,
                         fg__table_line line, bool at_blanks, int *numbers)
 {
-  while (line.size > 0 && strchr("#% \t", line.text[0])) {
-    ++line.text;
-    --line.size;
-  }
+  const bool is_comment = fg__table_is_comment(&line);
+  size_t begin = 0, word = 0;
+  while (begin < line.size && strchr("#% \t", line.text[begin]))
+    ++begin;
+  for (word = begin; word < line.size && !strchr(" \t", line.text[word]);)
+    ++word;
+  if (is_comment && word > begin && line.text[word - 1] == ':') /* %TableColumnTypes: */
+    begin = word;
+  line.text += begin;
+  line.size -= begin;
   fg__table_field field;
   int count = 0;
   *numbers = 0;

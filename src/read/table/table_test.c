@@ -103,6 +103,15 @@ static const situation SITUATIONS[] = {
          "x,y,u,v\nmm,mm,m/s,m/s\n1.5,10,11.5,-0.25\n2.5,10,12.5,-0.25\n"
          "3.5,10,13.5,-0.25\n1.5,20,21.5,-0.25\n2.5,20,22.5,-0.25\n3.5,20,23.5,-0.25\n",
      .field = SMALL},
+    {.what = "a radar's table in LLUV, whose header names types of columns",
+     .text = "%TableType: LLUV TOT4\n%TableColumns: 6\n"
+             "%TableColumnTypes: LOND LATD VELU VELV VFLG UQAL\n%TableStart:\n"
+             "%%  Longitude  Latitude  U comp  V comp  VectorFlag  U StdDev\n"
+             "%%  (deg)  (deg)  (cm/s)  (cm/s)  (GridCode)  Quality\n"
+             "1.5 10 11.5 -.25 0 1\n2.5 10 12.5 -.25 0 1\n3.5 10 13.5 -.25 0 1\n"
+             "1.5 20 21.5 -.25 0 1\n2.5 20 22.5 -.25 0 1\n3.5 20 23.5 -.25 0 1\n"
+             "%TableEnd:\n",
+     .field = "geo" SMALL "|name 'VELU'|units 'cm/s'"},
     {.what = "a coordinate of space that is the same everywhere",
      .text = "Points:0,Points:1,Points:2,U:0,U:1,U:2\n1.5,10,3,11.5,-0.25,9\n"
              "2.5,10,3,12.5,-0.25,9\n3.5,10,3,13.5,-0.25,9\n1.5,20,3,21.5,-0.25,9\n"
