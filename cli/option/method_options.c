@@ -97,8 +97,8 @@ static const option_entry method_entries[] = {
              "that readers get the field back [200,100,50,25,12; in 3D 60,25,12]"},
     {"tolerance", 0, "DEG", RUNS, OPTION_NUMBER, OWN(run, tolerance), 0, 90,
      .open_below = true,
-     .help = "one scale: the fewest arrows from which the field is read within DEG "
-             "degrees, the mean error of three readers"},
+     .help = "one scale: the fewest arrows with a mean direction error of at most "
+             "DEG degrees, averaged over three readers"},
     {"lengths", 0, "KIND", RUNS, OPTION_CHOICE, OWN(run, lengths),
      .words = arrow_lengths_words,
      .help = "arrows of `free` length, up to twice the fair share (the root of area / "

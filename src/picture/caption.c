@@ -85,7 +85,7 @@ static const char *format_error(char *words, size_t room, const fg_score *score)
   double weighted = (score->diffusion.speed_weighted + score->nearest.speed_weighted +
                      score->inverse_distance.speed_weighted) /
                     3.0;
-  int used = snprintf(words, room, "read within %g\xC2\xB0", round_up(score->mean));
+  int used = snprintf(words, room, "mean direction error %g\xC2\xB0", round_up(score->mean));
   if (weighted > 0.0 && weighted < STILL_SHARE * score->mean)
     snprintf(words + used, room - (size_t)used, ", weighted by speed %g\xC2\xB0",
              round_up(weighted));
@@ -187,7 +187,7 @@ void fg__caption_label_speeds(fg__tick_axis *speed, const char *wanted, const ch
 typedef struct caption_texts {
   char title[FG__CAPTION_BYTES], names[FG__CAPTION_BYTES], time[FG__CAPTION_BYTES],
       level[FG__CAPTION_BYTES], scale[32], arrows[32];
-  bool has_names; /* other than u, v, those in the title, and one name for all */
+  bool has_names; /* other than u, v, and one name for all */
 } caption_texts;
 
 /* Length of the name that a vector variable has where its components are called after it,
@@ -235,7 +235,6 @@ static void collect_texts(caption_texts *out, const fg__caption_panel *panel)
     snprintf(names, sizeof names, "%.*s", (int)of_vector, field->velocity_name[0]);
   fg__text_clean(out->names, sizeof out->names, names);
   fg__text_clean(out->title, sizeof out->title, field->title);
-  out->has_names = out->has_names && strcmp(out->names, out->title) != 0;
   fg__text_clean(out->time, sizeof out->time, field->time ? field->time : "");
   fg__text_clean(out->level, sizeof out->level, field->level ? field->level : "");
   write_minus(out->level);
@@ -350,8 +349,6 @@ static void write_subtitle(char subtitle[FG__CAPTION_BYTES], const caption_texts
 {
   char words[64];
   const fg_icons *icons = panel[0].icons;
-  if (texts->title[0] && texts->has_names)
-    add_part(subtitle, texts->names);
   add_part(subtitle, texts->time);
   add_part(subtitle, texts->level);
   if (icons)

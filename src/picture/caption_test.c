@@ -56,27 +56,23 @@ static void names_without_a_value_leave_nothing(void **state)
   fg_icons_destroy(icons);
 }
 
-static void components_of_the_title_are_not_named_again(void **state)
+/* They say what the quantity is only where nothing else does. */
+static void components_are_named_without_a_title(void **state)
 {
   fg_icons *icons = lines(*state, 2);
   fg_field_arrays field = {
-      .dimension = 2, .velocity_name = {"vel_x", "vel_y"}, .title = "vel"};
+      .dimension = 2, .velocity_name = {"vel_x", "vel_z"}, .title = "Pipe flow"};
   const char *const wanted[2] = {NULL, NULL};
   char title[FG__CAPTION_BYTES], subtitle[FG__CAPTION_BYTES];
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(title, "Vel");
+  assert_string_equal(title, "Pipe flow");
   assert_string_equal(subtitle, "2 arrows");
-  field.velocity_name[1] = "vel_z"; /* a plane of a volume */
+  field.title = "";
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(subtitle, "vel_x, vel_z \xC2\xB7 2 arrows");
+  assert_string_equal(title, "vel_x, vel_z");
   field.velocity_name[1] = "vel_y";
-  field.title = "Pipe flow";
   fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(subtitle, "vel \xC2\xB7 2 arrows");
-  field.velocity_name[1] = "vel_z";
-  field.title = "vel_x, vel_z"; /* of a file without words for them */
-  fg__caption_write(title, subtitle, &field, icons, wanted, 0.0);
-  assert_string_equal(subtitle, "2 arrows");
+  assert_string_equal(title, "vel");
   fg_icons_destroy(icons);
 }
 
@@ -155,16 +151,16 @@ static void a_caption_tells_the_error_and_never_less(void **state)
     double mean, weighted; /* by speed; 0: not known */
     const char *wanted;
   } cases[] = {
-      {16.2, 0.0, "2 arrows \xC2\xB7 read within 17\xC2\xB0"},
-      {16.0, 0.0, "2 arrows \xC2\xB7 read within 16\xC2\xB0"},
-      {3.0, 0.0, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
-      {2.99, 0.0, "2 arrows \xC2\xB7 read within 3\xC2\xB0"},
-      {2.31, 0.0, "2 arrows \xC2\xB7 read within 2.4\xC2\xB0"},
-      {0.02, 0.0, "2 arrows \xC2\xB7 read within 0.1\xC2\xB0"},
-      {89.5, 0.0, "2 arrows \xC2\xB7 read within 90\xC2\xB0"},
-      {66.2, 23.0, "2 arrows \xC2\xB7 read within 67\xC2\xB0"},
+      {16.2, 0.0, "2 arrows \xC2\xB7 mean direction error 17\xC2\xB0"},
+      {16.0, 0.0, "2 arrows \xC2\xB7 mean direction error 16\xC2\xB0"},
+      {3.0, 0.0, "2 arrows \xC2\xB7 mean direction error 3\xC2\xB0"},
+      {2.99, 0.0, "2 arrows \xC2\xB7 mean direction error 3\xC2\xB0"},
+      {2.31, 0.0, "2 arrows \xC2\xB7 mean direction error 2.4\xC2\xB0"},
+      {0.02, 0.0, "2 arrows \xC2\xB7 mean direction error 0.1\xC2\xB0"},
+      {89.5, 0.0, "2 arrows \xC2\xB7 mean direction error 90\xC2\xB0"},
+      {66.2, 23.0, "2 arrows \xC2\xB7 mean direction error 67\xC2\xB0"},
       {66.2, 13.4,
-       "2 arrows \xC2\xB7 read within 67\xC2\xB0, weighted by speed 14\xC2\xB0"},
+       "2 arrows \xC2\xB7 mean direction error 67\xC2\xB0, weighted by speed 14\xC2\xB0"},
   };
   fg_icons *icons = lines(*state, 2);
   expect(icons, "2 arrows");
@@ -204,7 +200,7 @@ static void panels_are_told_apart(void **state)
   fg__caption_panel panel[2] = {{&field[0], more, 0.0}, {&field[1], more, 0.0}};
   fg__caption_write_common(title, subtitle, panel, 2, none);
   assert_string_equal(title, "Wind");
-  assert_string_equal(subtitle, "U10, V10 \xC2\xB7 10 m \xC2\xB7 2 arrows each");
+  assert_string_equal(subtitle, "10 m \xC2\xB7 2 arrows each");
   fg__caption_write_common(title, subtitle, panel, 2, wanted);
   assert_string_equal(title, "10 m");
   fg__caption_write_label(label, panel, 2, 1, NULL);
@@ -312,7 +308,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_setup_teardown(a_caption_tells_the_error_and_never_less,
                                       context_set_up, context_tear_down),
-      cmocka_unit_test_setup_teardown(components_of_the_title_are_not_named_again,
+      cmocka_unit_test_setup_teardown(components_are_named_without_a_title,
                                       context_set_up, context_tear_down),
       cmocka_unit_test_setup_teardown(a_title_in_words_begins_with_a_capital,
                                       context_set_up, context_tear_down),

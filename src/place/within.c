@@ -60,8 +60,8 @@ fg_status fg_placement_within(fg_placement *placement, double degrees, int most,
   }
   if (status == FG_STATUS_OK && error > wanted)
     status = fg__fail(context, FG_STATUS_ARGUMENT,
-                      "the field cannot be read within %g degrees: with %d arrows it is "
-                      "read within %.3g",
+                      "no number of arrows has a mean direction error of at most %g "
+                      "degrees: that of %d is %.3g",
                       degrees, least.count, least.error);
   while (status == FG_STATUS_OK && enough - below > 1) {
     int middle = below + (enough - below) / 2;

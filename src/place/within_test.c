@@ -90,8 +90,8 @@ static void what_can_not_be_reached_is_refused(void **state)
   int most;
   double degrees, reached;
   if (sscanf(message,
-             "the field cannot be read within %lf degrees: with %d arrows it is "
-             "read within %lf",
+             "no number of arrows has a mean direction error of at most %lf "
+             "degrees: that of %d is %lf",
              &degrees, &most, &reached) != 3)
     fail_msg("%s", message);
   assert_true(degrees == 2 && most == 10 && reached > 4 && reached < 60);

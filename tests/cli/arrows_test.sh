@@ -66,7 +66,7 @@ if command -v gs >/dev/null; then
     degrees=$(jq ".scales[$scale].error.mean | ceil" drawn/run.json)
     count=$(jq ".scales[$scale].icons" drawn/run.json)
     gs -q -sDEVICE=txtwrite -o words "drawn/scale-0$scale.pdf" >/dev/null 2>&1
-    grep -qE "$count arrows .*read within $degrees" words || fault "scale $scale: $(head -c 200 words)"
+    grep -qE "$count arrows .*mean direction error $degrees" words || fault "scale $scale: $(head -c 200 words)"
   done
 fi
 done_with "pictures say what readers get wrong"

@@ -142,7 +142,7 @@ function setFineness(ratio) {
   return ratio;
 }
 
-/** "12 arrows · read within 16° · …", as pictures have it. */
+/** "12 arrows · mean direction error 16° · …", as pictures have it. */
 function captionWords() {
   const { at, count } = link();
   if (Number.isInteger(at)) return run.scales[at].caption;

@@ -72,7 +72,7 @@ function colourful({ pixels }) {
 test("the slider glides through every number of arrows", { skip }, async () => {
   const { page, faults, close } = await open("vortex");
   assert.equal(await page.textContent("#count"), "12");
-  assert.match(await page.textContent("#subtitle"), /^12 arrows · read within [\d.]+°/);
+  assert.match(await page.textContent("#subtitle"), /^12 arrows · mean direction error [\d.]+°/);
   const first = await saved(page);
   assert.ok(colourful(first) > 0.01, `${colourful(first)}`);
   await page.focus("#scale");
@@ -80,7 +80,7 @@ test("the slider glides through every number of arrows", { skip }, async () => {
     await page.keyboard.press("ArrowRight");
     assert.equal(await page.textContent("#count"), String(n));
     await page.waitForFunction((n) => document.getElementById("picture").dataset.arrows === String(n), n);
-    const words = n > 5 ? `${n} arrows · between the run's scales of 12 and 5` : "5 arrows · read within";
+    const words = n > 5 ? `${n} arrows · between the run's scales of 12 and 5` : "5 arrows · mean direction error";
     assert.ok((await page.textContent("#subtitle")).startsWith(words));
   }
   const second = await saved(page);

@@ -206,11 +206,11 @@ static void captions_break_between_their_parts(void **state)
   fg__page_plan plan = plan_of(190, 0, 40, 40, 0, "Wind");
   snprintf(plan.subtitle, sizeof plan.subtitle,
            "2022-02-21 12:00 \xC2\xB7 depth 0 m \xC2\xB7 80 arrows \xC2\xB7 "
-           "read within 15\xC2\xB0");
+           "mean direction error 15\xC2\xB0");
   fg__page *page = lay_out(&plan);
   check_page(page, &plan);
   assert_true(has_text(page, "2022-02-21 12:00 \xC2\xB7 depth 0 m \xC2\xB7 80 arrows"));
-  assert_true(has_text(page, "read within 15\xC2\xB0"));
+  assert_true(has_text(page, "mean direction error 15\xC2\xB0"));
   free(page);
 }
 

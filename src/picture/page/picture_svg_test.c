@@ -239,7 +239,7 @@ static void captions_tell_what_is_shown(void **state)
     size_t size;
     char *text = read_file(e, "a.svg", &size);
     assert_non_null(strstr(text, more[n].arrows));
-    assert_true((strstr(text, "read within 12") != NULL) == (n == 0));
+    assert_true((strstr(text, "mean direction error 12") != NULL) == (n == 0));
     free(text);
   }
 }
