@@ -40,6 +40,8 @@ static int check_key(const texture_settings *settings)
       {"key", settings->key},
       {"speed-range", picture->speed_range[1] > picture->speed_range[0]}};
   const given_option label = {"label", picture->label != NULL};
+  if (!picture->palette && settings->kind == FG_TEXTURE_SPEED)
+    return EXIT_DONE;
   if (!picture->palette)
     return refuse_given("texture", of_colors, 2,
                         "only with --palette, whose colours it "

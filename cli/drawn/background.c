@@ -55,5 +55,14 @@ fg_status background_choose(fg_picture_options *options, fg_texture **texture,
   if (!status)
     status = background_make(texture, context, settings, threads, size, field, density);
   options->background = *texture;
+  background_range(options, settings);
   return status;
+}
+
+void background_range(fg_picture_options *options, const picture_settings *settings)
+{
+  if (!settings->background || kind_of(settings) != FG_TEXTURE_SPEED)
+    return;
+  options->speed_min = settings->speed_range[0];
+  options->speed_max = settings->speed_range[1];
 }

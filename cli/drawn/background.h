@@ -26,4 +26,8 @@ fg_status background_choose(fg_picture_options *options, fg_texture **texture,
                             int threads, const fg_field *field, const fg_density *density,
                             const fg_icons *icons);
 
+/* The key of a background of speeds runs from 0 to its fastest, unless the user says
+ * otherwise: forgets the range that the run has for its arrows. */
+void background_range(fg_picture_options *options, const picture_settings *settings);
+
 #endif

@@ -237,6 +237,7 @@ static fg_status draw(fg_panel *panel, fg_texture **texture, fg_context *context
   settings_speeds(speeds, &settings->picture);
   options.speed_min = speeds[0];
   options.speed_max = speeds[1];
+  background_range(&options, &settings->picture);
   options.columns = settings->columns;
   double key_width = 0.0;
   options.key_width = &key_width;

@@ -22,9 +22,12 @@ typedef struct fg_picture_options {
                                           outside of its values, of much of that] */
   bool transparent;                    /* no background */
   bool tint;                           /* tint the clusters (density needed) */
-  const struct fg_texture *background; /* behind all, in pale greys (texture.h) [none] */
+  const struct fg_texture *background; /* behind all, in pale greys; of
+                                           FG_TEXTURE_SPEED in pale bands of the palette
+                                           [blue], and arrows are dark; a palette of one
+                                           colour is theirs (texture.h) [none] */
   double background_fade;              /* share of its way to white, 0 to 1 [0.7,
-                                          stripes 0.85] */
+                                          stripes 0.85, speeds 0.3] */
   bool skeletons;       /* mark the clusters' spines and centres, where icons have
                            them */
   bool centers;         /* mark the centres alone, where icons have them */

@@ -22,8 +22,10 @@ typedef enum fg_texture_kind {
   FG_TEXTURE_CLUSTERS, /* the clusters themselves: u, from 1 (light) where it is -0.6 or
                           less to 0 where it is 0.6 or more */
   FG_TEXTURE_STRIPES, /* u where it grew from weak noise: stripes along the streamlines */
-  FG_TEXTURE_DIFFUSION /* nonlinear anisotropic diffusion of noise (Preusser and Rumpf
-                          1999) */
+  FG_TEXTURE_DIFFUSION, /* nonlinear anisotropic diffusion of noise (Preusser and Rumpf
+                           1999) */
+  FG_TEXTURE_SPEED      /* the speed alone, which a colour map shows: value is 1; behind
+                           arrows in pale bands, and they have one dark colour */
 } fg_texture_kind;
 
 /* A zero field means its default, in brackets. */
@@ -34,7 +36,7 @@ typedef struct fg_texture_options {
                            and the domain's shape; both: from `longest` and that */
   double length; /* of streaks (LIC), the longest spots, four stripes' width together, in
                     pixels, 2 to 400 [a 25th of the longest side, of spots an 18th, of
-                    DIFFUSION a 20th; 20 at least]; not for CLUSTERS */
+                    DIFFUSION a 20th; 20 at least]; not for CLUSTERS and SPEED */
   int clusters;  /* CLUSTERS: the first snapshot with no more of them [300; with max_time:
                     none] */
   double max_time; /* CLUSTERS: no later than the first snapshot from this t on [never] */
@@ -70,8 +72,8 @@ FG_API const fg_texture_arrays *fg_texture_contents(const fg_texture *texture);
 
 /* A zero field means its default, in brackets. */
 typedef struct fg_texture_style {
-  const char *palette; /* NULL: grey; else a colour map that shows the speed, as for
-                          pictures, or "#rrggbb" for one colour */
+  const char *palette; /* NULL: grey, of SPEED gale; else a colour map that shows the
+                          speed, as for pictures, or "#rrggbb" for one colour */
   double speed_min, speed_max; /* ends of the colour map; equal: from the field */
   double fade;            /* share of the way to white, 0 to 1: a quiet background [0] */
   const char *mask_color; /* "#rrggbb" [light grey] */

@@ -209,6 +209,7 @@ fg_status fg__palette_create(fg__palette *out, fg_context *context, const char *
 {
   const char *wanted = name ? name : formulas[0].name;
   out->uniform = false;
+  out->bands = 0;
   fg__color single;
   if (fg__color_read(&single, wanted)) {
     out->uniform = true;
@@ -235,8 +236,22 @@ fg_status fg__palette_create(fg__palette *out, fg_context *context, const char *
   return fail_unknown(context, wanted);
 }
 
+void fg__palette_make_pale(fg__palette *palette, double fade, int bands)
+{
+  static const fg__color white = {1.0, 1.0, 1.0};
+  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
+    const double share = (double)k / (FG__PALETTE_SAMPLES - 1);
+    palette->sample[k] = mix(white, palette->sample[k], share * (1.0 - fade));
+  }
+  palette->uniform = false;
+  palette->bands = bands;
+}
+
 fg__color fg__palette_color(const fg__palette *palette, double share)
 {
+  if (palette->bands > 1) /* the first and the last have the colours of the ends */
+    share = fmin(fmax(floor(share * palette->bands), 0.0), palette->bands - 1.0) /
+            (palette->bands - 1.0);
   if (!(share > 0.0))
     return palette->sample[0];
   if (share >= 1.0)

@@ -32,12 +32,21 @@ typedef struct texture_kind {
   double cut; /* of its contrast (contrast.h); 0: its values are to be left alone */
 } texture_kind;
 
+static fg_status leave_plain(float *value, fg_context *context, const fg__canvas *canvas)
+{
+  const size_t count = (size_t)canvas->raster.size[0] * (size_t)canvas->raster.size[1];
+  for (size_t n = 0; n < count; ++n)
+    value[n] = 1.0F;
+  return fg__check_stop(context);
+}
+
 static const texture_kind kinds[] = {
     [FG_TEXTURE_LIC] = {fg__lic_paint, fg__lic_margin, 1.0 / 25.0, 2.0},
     [FG_TEXTURE_SPOTS] = {fg__spots_paint, fg__spots_margin, 1.0 / 18.0, 2.0},
     [FG_TEXTURE_CLUSTERS] = {fg__clusters_paint, fg__no_margin, 1.0 / 25.0, 0.0},
     [FG_TEXTURE_STRIPES] = {fg__stripes_paint, fg__no_margin, 1.0 / 25.0, 0.8},
     [FG_TEXTURE_DIFFUSION] = {fg__diffusion_paint, fg__diffusion_margin, 1.0 / 20.0, 1.5},
+    [FG_TEXTURE_SPEED] = {leave_plain, fg__no_margin, 1.0 / 25.0, 0.0},
 };
 
 static fg_status check_options(fg_context *context, const fg_texture_options *o)

@@ -100,6 +100,20 @@ expect_code 0
 grep -q '<image' stripes.svg || fault "no image in the picture"
 done_with "draw: a texture behind the icons"
 
+# The arrows have one dark colour, or the one that is asked for; the key runs from 0.
+try draw run-spots -o speed.svg --background speed
+expect_code 0
+[ "$(grep -c '<image' speed.svg)" = 1 ] || fault "no image in the picture"
+grep -q '>speed<' speed.svg && grep -q '>0<\|>0.0<' speed.svg || fault "$(grep -o '>[^<]*<' speed.svg | sort -u | tr '\n' ' ')"
+[ "$(grep -c "fill:rgb(7.843137%,12.54902%,22.745098%)" speed.svg)" = 12 ] || fault "other colours of arrows"
+try draw run-spots -o red.svg --background speed --palette '#800000'
+expect_code 0
+[ "$(grep -c "fill:rgb(50.196078%,0%,0%)" red.svg)" = 12 ] || fault "no red arrows"
+cmp -s <(grep '<image' speed.svg) <(grep '<image' red.svg) || fault "another background"
+try texture synth:saddle -o speed.png --kind speed --pixels 100 --key
+expect_code 0
+done_with "a background of speeds"
+
 # The density that a run has saved is what it drew itself.
 try run synth:saddle -o saved --nodes 65 --clusters 12 --formats png --background clusters --tint --save-field --quiet
 expect_code 0

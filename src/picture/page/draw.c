@@ -113,7 +113,9 @@ static void draw_arrow(cairo_t *cairo, const fg__scene *scene, size_t loop,
 static void draw_arrows(cairo_t *cairo, const fg__page *page, const fg__scene *scene,
                         const fg__style *style)
 {
-  const double rim = style->background ? rim_width : style->map ? rim_width_on_map : 0.0;
+  const double rim = style->background && !style->on_speeds ? rim_width
+                     : style->background || style->map      ? rim_width_on_map
+                                                            : 0.0;
   const fg__polygons *rims = style->map ? &style->map->arrow_rims : &scene->arrows;
   for (size_t loop = 0; loop < scene->arrows.count; ++loop) {
     const bool whole =
@@ -187,10 +189,15 @@ void fg__draw_ramp(cairo_t *cairo, const fg__page_box *key, bool upright,
   cairo_pattern_t *ramp = upright
                               ? cairo_pattern_create_linear(0.0, key->y1, 0.0, key->y0)
                               : cairo_pattern_create_linear(key->x0, 0.0, key->x1, 0.0);
-  for (int k = 0; k < FG__PALETTE_SAMPLES; ++k) {
-    fg__color color = palette->sample[k];
-    cairo_pattern_add_color_stop_rgb(ramp, (double)k / (FG__PALETTE_SAMPLES - 1),
-                                     color.red, color.green, color.blue);
+  const int steps = palette->bands ? palette->bands : FG__PALETTE_SAMPLES - 1;
+  for (int k = 0; k <= steps; ++k) {
+    const double at = (double)k / steps;
+    const fg__color before = fg__palette_color(palette, at - 0.5 / steps),
+                    after = fg__palette_color(palette, at);
+    if (palette->bands && k > 0) /* two colours at the edge of two bands */
+      cairo_pattern_add_color_stop_rgb(ramp, at, before.red, before.green, before.blue);
+    if (!palette->bands || k < steps)
+      cairo_pattern_add_color_stop_rgb(ramp, at, after.red, after.green, after.blue);
   }
   add_key(cairo, key, upright, point);
   cairo_set_source(cairo, ramp);

@@ -10,6 +10,7 @@
 typedef struct fg__style {
   fg__color mask, tint;
   cairo_surface_t *background; /* NULL: none */
+  bool on_speeds;              /* it shows speeds, and is pale */
   fg__page_box background_box; /* of the domain, which may be wider than the frame */
   fg__map_style map_style;
   const fg__map_scene *map;           /* NULL: what is drawn lies on no map */

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "picture/caption.h"
+#include "picture/page/texture_image.h"
 
 static const double default_pixels_per_point = 2.0;
 
@@ -14,6 +15,10 @@ static const fg__color default_tint = {0.845, 0.895, 0.950};
 
 /* Of clusters that no arrows shall stand out from. */
 static const fg__color lone_tint = {0.56, 0.68, 0.83};
+
+/* Behind arrows of one colour: pale bands of speed, by eye as in atlases. */
+static const char bands_palette[] = "#2f6ea8", dark_arrow[] = "#14203a";
+static const double bands_fade = 0.3, most_steps = 6.0, few_steps = 5.0;
 
 /* Checked so that NaN fails too. */
 static bool size_usable(double size)
@@ -83,23 +88,63 @@ static void find_shown(fg__figure *out, bool whole)
   }
 }
 
-static void plan_speeds(fg__figure *out, const fg_picture_options *options)
+/* Speeds from 0 to the fastest of all fields, unless they are given. */
+static fg_status find_range(double range[2], fg_context *context, const fg__figure *of)
+{
+  fg_status status = FG_STATUS_OK;
+  if (range[1] > range[0])
+    return status;
+  for (int n = 0; n < of->count && !status; ++n) {
+    double own[2];
+    status = fg_field_speed_range(own, context, of->given[n].field);
+    if (!status)
+      range[1] = fmax(range[1], own[1]);
+  }
+  range[0] = 0.0;
+  fg_picture_round_speeds(range);
+  return status;
+}
+
+/* Pale bands, one or two between round numbers. */
+static void make_bands(fg__palette *palette, const double range[2],
+                       const fg_picture_options *options)
+{
+  const fg__tick_axis plain = {.style = FG__TICKS_NUMBER, .factor = 1.0};
+  const double width = range[1] - range[0],
+               steps = floor(width / fg__ticks_step(&plain, width / most_steps) + 0.5);
+  fg__palette_make_pale(
+      palette, options->background_fade > 0.0 ? options->background_fade : bands_fade,
+      (int)fmax(steps < few_steps ? 2.0 * steps : steps, 2.0));
+}
+
+static fg_status plan_speeds(fg__figure *out, fg_context *context,
+                             const fg_picture_options *options)
 {
   fg__page_plan *plan = &out->plan;
   const char *units = fg_field_contents(out->given[0].field)->velocity_units;
+  const bool behind = fg__figure_shows_speeds(out);
   double range[2] = {options->speed_min, options->speed_max};
+  fg_status status = behind ? find_range(range, context, out) : FG_STATUS_OK;
+  if (status)
+    return status;
   const bool has_speeds = fg__speed_range_common(range, out->given, out->count);
   for (int n = 0; n < out->count; ++n) {
     bool beyond[2];
     fg__speeds_beyond(beyond, out->given[n].icons, range);
     for (int k = 0; k < 2; ++k)
       plan->speeds_beyond[k] = plan->speeds_beyond[k] || beyond[k];
+    if (behind && out->given[n].background)
+      fg__texture_beyond(plan->speeds_beyond,
+                         fg_texture_contents(out->given[n].background), range);
   }
-  plan->color_key =
-      has_speeds && !out->palette.uniform && !options->no_keys && !options->no_arrows;
-  fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "mean speed",
-                      units);
+  plan->color_key = !options->no_keys &&
+                    (behind || (has_speeds && !out->palette.uniform && !options->no_arrows));
+  fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0],
+                      behind ? "speed" : "mean speed", units);
   fg__caption_label_speeds(&plan->speed, options->label, units);
+  if (behind)
+    make_bands(&out->palette, range, options);
+  return FG_STATUS_OK;
 }
 
 static fg_status plan_map(fg__figure *out, fg_context *context)
@@ -192,9 +237,10 @@ static fg_status plan_figure(fg__figure *out, fg_context *context, bool several,
     status = write_texts(out, context, several, options);
   if (!status)
     status = fg__scene_typical_icon(&out->typical, context, out->given, out->count);
+  if (!status)
+    status = plan_speeds(out, context, options);
   if (status)
     return status;
-  plan_speeds(out, options);
   plan->size_key = out->typical.length > 0.0 && !options->no_keys && !options->no_arrows;
   plan->arrow_length = out->typical.length;
   describe_length(plan, &out->plane);
@@ -286,6 +332,26 @@ static fg_status check_room(fg_context *context)
   return FG_STATUS_OK;
 }
 
+bool fg__figure_shows_speeds(const fg__figure *figure)
+{
+  const fg_texture_arrays *behind = fg_texture_contents(figure->given[0].background);
+  return behind && behind->kind == FG_TEXTURE_SPEED;
+}
+
+/* Over speeds arrows have one colour, the options' if it is one. */
+static fg_status choose_palettes(fg__figure *out, fg_context *context,
+                                 const fg_picture_options *options)
+{
+  const char *name = options->palette, *arrows = name;
+  if (fg__figure_shows_speeds(out)) {
+    const bool is_color = name && name[0] == '#';
+    arrows = is_color ? name : dark_arrow;
+    name = !name || is_color ? bands_palette : name;
+  }
+  const fg_status status = fg__palette_create(&out->arrows, context, arrows);
+  return status ? status : fg__palette_create(&out->palette, context, name);
+}
+
 fg__page *fg__figure_page(fg__figure *figure, int k)
 {
   return figure->plan.panels ? &figure->panel[k].page : &figure->page;
@@ -299,7 +365,7 @@ static fg_status prepare(fg__figure *out, fg_context *context, bool several,
   if (!status)
     status = check_room(context);
   if (!status)
-    status = fg__palette_create(&out->palette, context, options->palette);
+    status = choose_palettes(out, context, options);
   if (!status)
     status = choose_colors(&style, context, options);
   out->transparent = options->transparent;
@@ -314,6 +380,7 @@ static fg_status prepare(fg__figure *out, fg_context *context, bool several,
     style.background_box =
         domain_box(out, fg__figure_page(out, k), fg_field_contents(out->given[k].field));
     style.critical = out->panel[k].critical;
+    style.on_speeds = fg__figure_shows_speeds(out);
     memcpy(style.low, out->low, sizeof style.low);
     out->panel[k].style = style;
   }

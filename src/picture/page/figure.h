@@ -23,7 +23,8 @@ typedef struct fg__figure {
   fg__page page;
   fg__figure_panel *panel;
   char (*label)[FG__PAGE_TEXT_BYTES];
-  fg__palette palette;
+  fg__palette palette; /* of the speeds; of a background that shows them, in bands */
+  fg__palette arrows;  /* of the arrows' speeds */
   fg__plane plane; /* of fields on the Earth */
   fg__graticule graticule;
   double low[2], high[2]; /* what the frames show, in the fields' coordinates */
@@ -42,5 +43,8 @@ void fg__figure_destroy(fg__figure *figure);
 
 /* The page on which panel k lies, in points of the whole figure. */
 fg__page *fg__figure_page(fg__figure *figure, int k);
+
+/* Whether its background is of FG_TEXTURE_SPEED. */
+bool fg__figure_shows_speeds(const fg__figure *figure);
 
 #endif

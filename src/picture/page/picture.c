@@ -43,12 +43,18 @@ static fg_status check_pixels(fg_context *context, const fg__figure *p)
 }
 
 static fg_status make_background(fg__style *out, fg_context *context,
-                                 const fg_panel *panel, const fg_picture_options *options)
+                                 const fg__figure *figure, const fg_panel *panel,
+                                 const fg_picture_options *options)
 {
   const fg_texture_arrays *texture = fg_texture_contents(panel->background);
   fg_texture_style style = {.fade = options->background_fade};
   if (!panel->background)
     return FG_STATUS_OK;
+  if (texture->kind == FG_TEXTURE_SPEED) {
+    const double range[2] = {figure->plan.speed.low, figure->plan.speed.high};
+    return fg__texture_image_speeds(&out->background, context, texture, &figure->palette,
+                                    range);
+  }
   if (!(style.fade > 0.0))
     style.fade = texture->kind == FG_TEXTURE_STRIPES ? stripes_fade : default_fade;
   return fg__texture_image(&out->background, context, texture, &style);
@@ -126,7 +132,7 @@ static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
   fg_status status = fg__scene_create(
       &panel->scene, context, page, given->field, figure->low, figure->high,
       options->tint ? fg_density_contents(given->density) : NULL,
-      options->no_arrows ? NULL : given->icons, &figure->palette, range);
+      options->no_arrows ? NULL : given->icons, &figure->arrows, range);
   if (!status && masked)
     status = make_mask(figure, k, context);
   if (!status && (options->skeletons || options->centers))
@@ -136,7 +142,7 @@ static fg_status make_panel(fg__figure *figure, int k, fg_context *context,
   if (!status)
     status = make_map(figure, k, context, options);
   if (!status)
-    status = make_background(&panel->style, context, given, options);
+    status = make_background(&panel->style, context, figure, given, options);
   if (!status)
     status = fg__check_stop(context);
   return status;

@@ -60,6 +60,16 @@ fg_status fg__texture_range(double range[2], fg_context *context,
   return FG_STATUS_OK;
 }
 
+void fg__texture_beyond(bool beyond[2], const fg_texture_arrays *texture,
+                        const double range[2])
+{
+  const size_t count = (size_t)texture->size[0] * (size_t)texture->size[1];
+  for (size_t n = 0; n < count; ++n) {
+    beyond[0] = beyond[0] || (double)texture->speed[n] < range[0];
+    beyond[1] = beyond[1] || (double)texture->speed[n] > range[1];
+  }
+}
+
 typedef struct coloring {
   const fg_texture_arrays *texture;
   fg__palette palette;
@@ -73,24 +83,55 @@ static uint32_t byte_of(double share)
   return (uint32_t)(255.0 * share + 0.5);
 }
 
-static uint32_t pixel_of(const coloring *c, double value, double speed)
+static uint32_t pixel_of(fg__color color, double fade)
 {
-  double rgb[3];
-  if (c->grey) {
-    rgb[0] = rgb[1] = rgb[2] = darkest + (1.0 - darkest) * value;
-  } else {
-    const double share = (speed - c->range[0]) / (c->range[1] - c->range[0]);
-    const fg__color color = fg__palette_color(&c->palette, share);
-    const double part[3] = {color.red, color.green, color.blue};
-    for (int k = 0; k < 3; ++k) {
-      const double dark = shade * part[k], bright = part[k] + light * (1.0 - part[k]);
-      rgb[k] = dark + value * (bright - dark);
-    }
-  }
+  const double part[3] = {color.red, color.green, color.blue};
   uint32_t pixel = 255;
   for (int k = 0; k < 3; ++k)
-    pixel = pixel << 8 | byte_of(rgb[k] + c->fade * (1.0 - rgb[k]));
+    pixel = pixel << 8 | byte_of(part[k] + fade * (1.0 - part[k]));
   return pixel;
+}
+
+static fg__color mix(fg__color from, fg__color to, double share)
+{
+  return (fg__color){from.red + share * (to.red - from.red),
+                     from.green + share * (to.green - from.green),
+                     from.blue + share * (to.blue - from.blue)};
+}
+
+/* The colour of a speed; between bands the edge is as smooth as one that is drawn. */
+static fg__color color_of_speed(const coloring *c, size_t n)
+{
+  const int bands = c->palette.bands;
+  const double width = c->range[1] - c->range[0], speed = (double)c->texture->speed[n],
+               share = (speed - c->range[0]) / width;
+  const size_t wide = (size_t)c->texture->size[0];
+  if (!bands || n < wide || n % wide == 0)
+    return fg__palette_color(&c->palette, share);
+  const double steepest = hypot(speed - (double)c->texture->speed[n - 1],
+                                speed - (double)c->texture->speed[n - wide]) *
+                          bands / width,
+               edge = floor(share * bands + 0.5),
+               beyond = (share * bands - edge) / steepest; /* pixels; NaN, infinite */
+  if (!(fabs(beyond) < 0.5))
+    return fg__palette_color(&c->palette, share);
+  return mix(fg__palette_color(&c->palette, (edge - 0.5) / bands),
+             fg__palette_color(&c->palette, (edge + 0.5) / bands), 0.5 + beyond);
+}
+
+static fg__color color_of(const coloring *c, size_t n)
+{
+  static const fg__color white = {1.0, 1.0, 1.0};
+  const double value = (double)c->texture->value[n];
+  if (c->grey) {
+    const double grey = darkest + (1.0 - darkest) * value;
+    return (fg__color){grey, grey, grey};
+  }
+  const fg__color color = color_of_speed(c, n);
+  if (c->texture->kind == FG_TEXTURE_SPEED)
+    return color;
+  const fg__color dark = {shade * color.red, shade * color.green, shade * color.blue};
+  return mix(dark, mix(color, white, light), value);
 }
 
 static void paint(cairo_surface_t *surface, const coloring *c)
@@ -104,8 +145,7 @@ static void paint(cairo_surface_t *surface, const coloring *c)
     uint32_t *out = (uint32_t *)(void *)(bytes + (size_t)(size[1] - 1 - j) * stride);
     const size_t at = (size_t)j * (size_t)size[0];
     for (int i = 0; i < size[0]; ++i)
-      out[i] = pixel_of(c, (double)c->texture->value[at + (size_t)i],
-                        (double)c->texture->speed[at + (size_t)i]);
+      out[i] = pixel_of(color_of(c, at + (size_t)i), c->fade);
   }
   cairo_surface_mark_dirty(surface);
 }
@@ -155,6 +195,24 @@ static fg_status spread(cairo_surface_t *surface, fg_context *context,
   return FG_STATUS_OK;
 }
 
+static fg_status make_image(cairo_surface_t **out, fg_context *context,
+                            const coloring *c)
+{
+  const int *size = c->texture->size;
+  cairo_surface_t *surface =
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, size[0], size[1]);
+  if (cairo_surface_status(surface)) {
+    cairo_surface_destroy(surface);
+    return fg__fail_memory(context, "a texture's image",
+                           (size_t)size[0] * (size_t)size[1] * 4);
+  }
+  paint(surface, c);
+  const fg_status status = spread(surface, context, c->texture);
+  cairo_surface_mark_dirty(surface);
+  *out = surface;
+  return status;
+}
+
 fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
                             const fg_texture_arrays *texture,
                             const fg_texture_style *style)
@@ -163,18 +221,14 @@ fg_status fg__texture_image(cairo_surface_t **out, fg_context *context,
   fg_status status = fg__palette_create(&c.palette, context, style->palette);
   if (!status && !c.grey)
     status = fg__texture_range(c.range, context, texture, style);
-  if (status)
-    return status;
-  cairo_surface_t *surface =
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, texture->size[0], texture->size[1]);
-  if (cairo_surface_status(surface)) {
-    cairo_surface_destroy(surface);
-    return fg__fail_memory(context, "a texture's image",
-                           (size_t)texture->size[0] * (size_t)texture->size[1] * 4);
-  }
-  paint(surface, &c);
-  status = spread(surface, context, texture);
-  cairo_surface_mark_dirty(surface);
-  *out = surface;
-  return status;
+  return status ? status : make_image(out, context, &c);
+}
+
+fg_status fg__texture_image_speeds(cairo_surface_t **out, fg_context *context,
+                                   const fg_texture_arrays *texture,
+                                   const fg__palette *palette, const double range[2])
+{
+  const coloring c = {
+      .texture = texture, .palette = *palette, .range = {range[0], range[1]}};
+  return make_image(out, context, &c);
 }

@@ -146,19 +146,6 @@ static void paint_map(cairo_t *cairo, const painted *p)
   fg__map_draw_outline_in(cairo, &p->map, wide, high);
 }
 
-/* Whether some of what is seen is slower, or faster, than the ends of the colour key. */
-static void look_beyond(bool beyond[2], const fg_texture_arrays *texture,
-                        const fg_texture_style *style)
-{
-  if (!(style->speed_max > style->speed_min))
-    return;
-  const size_t count = (size_t)texture->size[0] * (size_t)texture->size[1];
-  for (size_t n = 0; n < count; ++n) {
-    beyond[0] = beyond[0] || (double)texture->speed[n] < style->speed_min;
-    beyond[1] = beyond[1] || (double)texture->speed[n] > style->speed_max;
-  }
-}
-
 static fg_status plan_key(fg__page_plan *plan, fg_context *context, const fg_field *field,
                           const fg_texture_arrays *texture, const fg_texture_style *style)
 {
@@ -171,7 +158,8 @@ static fg_status plan_key(fg__page_plan *plan, fg_context *context, const fg_fie
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0], "speed",
                       units);
   fg__caption_label_speeds(&plan->speed, style->label, units);
-  look_beyond(plan->speeds_beyond, texture, style);
+  if (style->speed_max > style->speed_min)
+    fg__texture_beyond(plan->speeds_beyond, texture, range);
   return FG_STATUS_OK;
 }
 
@@ -252,6 +240,8 @@ fg_status fg_texture_write(fg_context *context, const char *path, const fg_field
   if (style)
     settled = *style;
   const fg_texture_arrays *contents = fg_texture_contents(texture);
+  if (contents->kind == FG_TEXTURE_SPEED && !settled.palette)
+    settled.palette = fg_picture_palettes()[0];
   painted p = {.image = NULL};
   fg__palette palette;
   fg__page *page = fg__allocate(1, sizeof *page);

@@ -209,6 +209,44 @@ static void test_missing_pixels_are_like_their_neighbours(void **state)
   cairo_surface_destroy(image);
 }
 
+/* Bands of a third each, whose edges are mixed from the two. */
+static void test_speeds_are_shown_in_bands(void **state)
+{
+  enum { BANDS = 3 };
+  example *e = *state;
+  const double range[2] = {1.0, 3.0};
+  fg__palette palette;
+  fg_texture *speeds;
+  cairo_surface_t *image;
+  assert_int_equal(
+      fg_texture_create(&speeds, e->context, e->field,
+                        &(fg_texture_options){.kind = FG_TEXTURE_SPEED, .longest = 80}),
+      FG_STATUS_OK);
+  assert_int_equal(fg__palette_create(&palette, e->context, "#2f6ea8"), FG_STATUS_OK);
+  fg__palette_make_pale(&palette, 0.25, BANDS);
+  const fg_texture_arrays *t = fg_texture_contents(speeds);
+  assert_int_equal(fg__texture_image_speeds(&image, e->context, t, &palette, range),
+                   FG_STATUS_OK);
+  int mixed = 0;
+  double last = 2.0;
+  for (int j = 0; j < 40; ++j) {
+    const double share = ((double)t->speed[j * 80 + 10] - 1.0) / 2.0 * BANDS;
+    const fg__color band = fg__palette_color(&palette, share / BANDS);
+    const double red = pixel_at(image, 10, 39 - j).red;
+    const bool at_edge = fabs(share - floor(share + 0.5)) < 0.04;
+    assert_true(red <= last); /* the faster, the darker */
+    assert_true(at_edge || fabs(red - band.red) < 0.01);
+    mixed += at_edge;
+    last = red;
+  }
+  assert_true(mixed > 0 && mixed < 8);
+  assert_true(pixel_at(image, 10, 39).red == 1.0);
+  const double darkest = 0.25 + 0.75 * 0x2f / 255.0;
+  assert_true(fabs(pixel_at(image, 10, 0).red - darkest) < 0.01);
+  cairo_surface_destroy(image);
+  fg_texture_destroy(speeds);
+}
+
 static void test_missing_is_covered(void **state)
 {
   example *e = *state;
@@ -393,6 +431,7 @@ int main(void)
       cmocka_unit_test_setup_teardown(test_missing_pixels_are_like_their_neighbours,
                                       set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_palette_shows_speed, set_up, tear_down),
+      cmocka_unit_test_setup_teardown(test_speeds_are_shown_in_bands, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_fading_leads_to_white, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_background_fills_the_frame, set_up, tear_down),
       cmocka_unit_test_setup_teardown(test_stripes_are_not_darker_than_land, set_up,

@@ -33,7 +33,8 @@ static fg_status locate(fg__cell_set *set, fg__dataset *data)
                         .numbers = from->cells,
                         .region = data->region};
   from->position = NULL;
-  for (size_t c = 0; c < from->cells && status == FG_STATUS_OK; ++c) {
+  const size_t cells = from->corners > 0 ? from->cells : 0;
+  for (size_t c = 0; c < cells && status == FG_STATUS_OK; ++c) {
     const size_t end = c + 1 < from->cells ? from->first[c + 1] : from->corners;
     status = fg__cell_set_add_as(set, from->type[c], from->corner + from->first[c],
                                  end - from->first[c], (int)c);
