@@ -10,20 +10,22 @@ const cli_command command_table[] = {
      .operand = "INPUT",
      .synopsis = "INPUT -o DIR [options]",
      .summary = "write a picture of every scale: the main job",
-     .text = "Reads a vector field, lets clusters grow on it from fine to coarse, places "
-             "for every wanted number exactly so many arrows, which start from the "
-             "clusters, and writes each scale into DIR: the icons as GeoJSON and their "
-             "picture. Its caption gives the mean direction error: the mean, over the area "
-             "and three readers, of the angle between the field and what they "
-             "reconstruct from the arrows alone (flowgrain score). DIR also gets run.json, which says all "
-             "that was done, and "
-             "evolution.csv, with a row for every time step. INPUT is a NetCDF or GRIB "
-             "file; a VTK file of an image, a grid or a plane, or one that names others, "
-             "in parallel, as blocks or over time; a table of points in text; NumPy's "
-             ".npy or .npz; `-` for one of these on standard input; or synth:NAME for an "
-             "analytic field (see flowgrain synth --help). In 3D a scale is the icons as "
-             "GeoJSON, VTK polydata (.vtp) and glTF (.glb), a rendered picture for each "
-             "--view, and the density u and its clusters (.vti).",
+     .text =
+         "Reads a vector field, lets clusters grow on it from fine to coarse, places "
+         "for every wanted number exactly so many arrows, which start from the "
+         "clusters, and writes each scale into DIR: the icons as GeoJSON and their "
+         "picture. Its caption gives the mean direction error: the mean, over the area "
+         "and three readers, of the angle between the field and what they "
+         "reconstruct from the arrows alone (flowgrain score). DIR also gets run.json, "
+         "which says all "
+         "that was done, and "
+         "evolution.csv, with a row for every time step. INPUT is a NetCDF or GRIB "
+         "file; a VTK file of an image, a grid or a plane, or one that names others, "
+         "in parallel, as blocks or over time; a table of points in text; NumPy's "
+         ".npy or .npz; `-` for one of these on standard input; or synth:NAME for an "
+         "analytic field (see flowgrain synth --help). In 3D a scale is the icons as "
+         "GeoJSON, VTK polydata (.vtp) and glTF (.glb), a rendered picture for each "
+         "--view, and the density u and its clusters (.vti).",
      .work = command_run,
      .group = {[GROUP_READING] = offsetof(run_settings, reading),
                [GROUP_INPUTS] = offsetof(run_settings, inputs),

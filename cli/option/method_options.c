@@ -11,8 +11,8 @@ static const char *const method_words[] = {
     "hedgehog", "grid-curved", "discrete", "top-down", "streamlines",
     "voronoi",  "k-means",     "farthest", "random",   NULL};
 static const char *const lengths_words[] = {"equal", "speed", NULL};
-static const char *const kind_words[] = {"lic",     "spots",     "clusters",
-                                         "stripes", "diffusion", "speed", NULL};
+static const char *const kind_words[] = {"lic",       "spots", "clusters", "stripes",
+                                         "diffusion", "speed", NULL};
 static const char *const arrow_lengths_words[] = {"free", "fair", NULL};
 static const char *const start_words[] = {"clusters", "even", NULL};
 const char *const effort_words[] = {"1", "0", "2", NULL};
@@ -64,7 +64,8 @@ static const option_entry method_entries[] = {
      .help =
          "kind of texture: `lic` (line integral convolution), `spots` (spot noise, which "
          "shows the speed, too), `clusters` (those of the evolution), `stripes` (which "
-         "grow from weak noise), `diffusion` (of noise along the flow) or `speed` (without "
+         "grow from weak noise), `diffusion` (of noise along the flow) or `speed` "
+         "(without "
          "streaks) [lic]"},
     {"length", 0, "L", COMMAND_TEXTURE, OPTION_NUMBER, OWN(texture, length), 2, 400,
      .help =

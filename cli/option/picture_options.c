@@ -77,10 +77,11 @@ static const option_entry picture_entries[] = {
              "with --save-field"},
     {"background", 0, "KIND", RUNS | COMMAND_DRAW, OPTION_CHOICE, PICTURE(background),
      .words = background_words,
-     .help = "in 2D: behind the icons, which then have one dark colour, the `speed` in "
-             "pale bands; or a pale texture, as flowgrain texture paints: `lic`, `spots`, "
-             "`stripes`, `diffusion`, or the `clusters` of the scale (draw: of a run with "
-             "--save-field) [none]"},
+     .help =
+         "in 2D: behind the icons, which then have one dark colour, the `speed` in "
+         "pale bands; or a pale texture, as flowgrain texture paints: `lic`, `spots`, "
+         "`stripes`, `diffusion`, or the `clusters` of the scale (draw: of a run with "
+         "--save-field) [none]"},
     {"skeletons", 0, NULL, RUNS, OPTION_FLAG, PICTURE(skeletons),
      .help = "in 2D, of clusters: mark each spine by dots, and each centre by a ring"},
     {"centers", 0, NULL, RUNS, OPTION_FLAG, PICTURE(centers),
@@ -101,9 +102,8 @@ static const option_entry picture_entries[] = {
      .help = "in 2D, with --tint: its colour [#d7e4f2]"},
     {"background-fade", 0, "F", RUNS | COMMAND_DRAW, OPTION_NUMBER,
      PICTURE(background_fade), 0, 1, .open_below = true,
-     .help =
-         "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85, "
-         "speed 0.3]"},
+     .help = "with --background: share of its way to white, in (0,1] [0.7, stripes 0.85, "
+             "speed 0.3]"},
     {"no-coast", 0, NULL, PICTURES, OPTION_FLAG, PICTURE(no_coast),
      .help = "of a field on the Earth: neither land nor coasts, lakes, borders; grey "
              "where the field is missing"},

@@ -32,7 +32,7 @@ static void name_variables(fg__dataset *data, const char *before, int first)
                                                                              "v", "w"};
   fg__variable *found[6];
   int count = 0, number;
-  for (size_t i = 0; i < data->variable_count; ++i) {
+  for (size_t i = 0; i < data->variable_count && !data->lost_names; ++i) {
     fg__variable *v = &data->variables[i];
     if (v->file != data->files - 1 || v->element != 0 ||
         !is_number(v, before, first, &number))

@@ -4,6 +4,7 @@
 #include "interpret/space/space.h"
 #include "interpret/unstructured/unstructured.h"
 #include "terms/coordinates.h"
+#include "terms/text.h"
 #include "terms/vectors.h"
 
 #include <stdlib.h>
@@ -29,12 +30,13 @@ const char *fg__called(const fg__variable *v)
 fg__term fg__term_of(const fg__variable *v)
 {
   double relative;
+  const char *comment = text_of(v, "comment");
   const bool flagged =
       fg__attribute_numbers(v, "GRIB_uvRelativeToGrid", &relative, 1) == 1;
   return (fg__term){.name = fg__called(v),
                     .standard_name = text_of(v, "standard_name"),
                     .long_name = text_of(v, "long_name"),
-                    .comment = text_of(v, "comment"),
+                    .comment = comment ? comment : text_of(v, "description"),
                     .units = text_of(v, "units"),
                     .group = (int)v->location,
 
@@ -80,6 +82,9 @@ static bool may_be_component(const fg__dataset *data, const fg__variable *v,
 {
   if (data->space.is_there)
     return fg__may_be_in_space(v);
+  const char *methods = text_of(v, "cell_methods");
+  if (methods && fg__contains_any(methods, "variance|standard_deviation"))
+    return false;
   return v->file < data->component_files && fg__is_array(v) && !v->element &&
          (v->rank >= 2 || lies_at_places(data, v, known));
 }
@@ -217,6 +222,12 @@ static bool add_titled(pair_list *pairs, const fg__dataset *data, candidates *al
   all->count = kept;
   const bool memory = add_found(pairs, data, all, apart);
   for (size_t i = known; i < pairs->count; ++i) {
+    fg__polar own;
+    if (pairs->entry[i].polar.sense != 0) {
+      const fg__term direction = fg__term_of(pairs->entry[i].component[1]);
+      fg__direction_read(&own, &direction);
+      pairs->entry[i].polar.sense = own.sense;
+    }
     pairs->entry[i].found_by = "long_name";
     pairs->entry[i].rank += FG__BY_LONG_NAMES;
   }

@@ -85,7 +85,8 @@ static const char *format_error(char *words, size_t room, const fg_score *score)
   double weighted = (score->diffusion.speed_weighted + score->nearest.speed_weighted +
                      score->inverse_distance.speed_weighted) /
                     3.0;
-  int used = snprintf(words, room, "mean direction error %g\xC2\xB0", round_up(score->mean));
+  int used =
+      snprintf(words, room, "mean direction error %g\xC2\xB0", round_up(score->mean));
   if (weighted > 0.0 && weighted < STILL_SHARE * score->mean)
     snprintf(words + used, room - (size_t)used, ", weighted by speed %g\xC2\xB0",
              round_up(weighted));

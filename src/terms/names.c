@@ -443,7 +443,7 @@ int fg__component_in_words(const char *words)
 bool fg__is_positive_backwards(const char *words)
 {
   return fg__contains_any(words, "positive west|positive south|positive to the west|"
-                                 "positive to the south");
+                                 "positive to the south|positive from ");
 }
 
 bool fg__counts_backwards(const char *words)

@@ -79,19 +79,7 @@ static bool is_short(const fg__term *term, int k)
   return fg__is_one_of(words[k], term->name, strcspn(term->name, "_0123456789"));
 }
 
-/* Whether "from" is there, other than in "clockwise from north". */
-static bool has_from(const char *text)
-{
-  static const char origins[] = "north|true|geographic|east|x|the";
-  for (const char *at = text; (at = fg__find_text(at, "from")) != NULL; ++at) {
-    const char *next = at + 4 + strspn(at + 4, " _");
-    if (!fg__is_one_of(origins, next, strcspn(next, " _,;.()")))
-      return true;
-  }
-  return false;
-}
-
-/* Whether "to" is one of a text's words, as in wind_to_direction. */
+/* Whether "to" is one of a name's words, as in wind_to_direction. */
 static bool has_to(const char *text)
 {
   for (const char *at = text; (at = fg__find_text(at, "to")) != NULL; ++at)
@@ -101,36 +89,67 @@ static bool has_to(const char *text)
   return false;
 }
 
+/* Whether a text ends with a word. */
+static bool ends_with(const char *text, const char *word)
+{
+  const size_t all = strlen(text), end = strlen(word);
+  return all >= end && fg__find_text(text + all - end, word) != NULL;
+}
+
 /* The sense by a convention that prose names; 0: none or both. "From" and "toward" alone
  * say where data come from, or which way angles grow. */
 static int convention_of(const char *text)
 {
-  const bool from = fg__contains_any(text, "direction from which|blows from|blowing from|"
-                                           "meteorological convention");
-  const bool to = fg__contains_any(text, "direction to which|direction toward which|"
-                                         "direction towards which|blows to|blowing to|"
-                                         "flows to|flowing to|oceanographic convention");
+  const bool from = fg__contains_any(
+      text, "direction from which|from where|from direction|from_direction|(from)|"
+            "blows from|blowing from|meteorological convention");
+  const bool to = fg__contains_any(
+      text, "direction to which|direction toward which|direction towards which|to "
+            "where|to direction|(to)|going to|"
+            "blows to|blowing to|flows to|flowing to|oceanographic convention|"
+            "(oceanographic|downwind");
   return (int)to - (int)from;
+}
+
+/* The sense of what moves, by the last word for it before "direction" or, without one,
+ * the first behind: wind and waves are known by where they come from, currents and drifts
+ * by where they go, and so are stresses and vectors. 0: no such word. */
+static int sense_of_mover(const char *text)
+{
+  static const char *const words[2] = {"wind|wave|swell",
+                                       "current|drift|water|stream|transport"};
+  const char *direction = fg__find_text(text, "dir");
+  int sense = 0;
+  if (fg__contains_any(text, "stress|vector"))
+    return 1;
+  for (const char *at = text; *at && !(sense && direction && at > direction); ++at)
+    for (int k = 0; k < 2 && !(sense && !direction); ++k)
+      if (fg__starts_with_one_of(words[k], at, strlen(at)))
+        sense = k == 0 ? -1 : 1;
+  return sense;
 }
 
 static int sense_of(const fg__term *term)
 {
   const char *standard = standard_name(term), *more = or_empty(term->long_name);
   const char *name = fg__last_part(term->name);
-  if (standard[0])
-    return strstr(standard, "from_direction") ? -1 : 1;
-  if (has_from(name) || has_from(more))
+  if (strstr(standard, "from_direction"))
     return -1;
-  if (has_to(name) || fg__find_text(more, "toward"))
+  if (strstr(standard, "to_direction") || strstr(standard, "direction_of_"))
     return 1;
-  for (int k = 0; k < 2; ++k) {
-    const int convention = convention_of(k == 0 ? more : or_empty(term->comment));
-    if (convention != 0)
-      return convention;
-  }
-  return fg__contains_any(name, "wind|wave|swell|drct") ||
-                 fg__contains_any(more, "wind|wave|swell") || fg__small(name[0]) == 'w' ||
-                 is_short(term, 0)
+  if (fg__find_text(name, "from") || ends_with(more, " from"))
+    return -1;
+  if (has_to(name) || ends_with(more, " to") || fg__find_text(more, "toward"))
+    return 1;
+  const char *const prose[] = {more, or_empty(term->comment)}, *const names[] = {
+                                                                   more, standard, name};
+  for (int k = 0; k < 2; ++k)
+    if (convention_of(prose[k]) != 0)
+      return convention_of(prose[k]);
+  for (int k = 0; k < 3; ++k)
+    if (sense_of_mover(names[k]) != 0)
+      return sense_of_mover(names[k]);
+  return fg__find_text(name, "drct") || fg__small(name[0]) == 'w' || is_short(term, 0)
              ? -1
              : 1;
 }
@@ -148,7 +167,8 @@ const char *fg__opposite_sense(const fg__term *direction)
 static bool is_from_east(const fg__term *term)
 {
   static const char words[] = "from east|from_east|counterclockwise|counter-clockwise|"
-                              "anticlockwise|anti-clockwise|ccw|mathematical";
+                              "anticlockwise|anti-clockwise|ccw|mathematical|"
+                              "cartesian convention|0=east|0 = east|x axis|x-axis";
   static const char in_prose[] = "mathematical convention|counterclockwise from|"
                                  "counter-clockwise from|anticlockwise from|"
                                  "anti-clockwise from";

@@ -34,6 +34,19 @@ static void names_have_a_sense(void **state)
       {"tower_wind_dir", "", -1},
       {"mwd", "mean wave direction", -1},
       {"swell_dir", "", -1},
+      {"cdir", "Current direction derived from u and v", 1},
+      {"cdir", "current direction, clockwise from magnetic north", 1},
+      {"dir", "ice drift direction from SAR", 1},
+      {"water_dir", "flow direction", 1},
+      {"WCDIR", "current direction", 1},
+      {"dir", "wind-driven surface current direction", 1},
+      {"dir", "wave-induced current direction", 1},
+      {"mwd", "mean wave direction in shallow water", -1},
+      {"tau_dir", "direction of the wind stress vector", 1},
+      {"wind_dir", "Wind direction (to)", 1},
+      {"wind_dir", "Wind direction from", -1},
+      {"wdir", "direction the waves are going to", 1},
+      {"wdir", "wind direction (oceanographic)", 1},
   };
   (void)state;
   for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
@@ -42,6 +55,30 @@ static void names_have_a_sense(void **state)
     fg__direction_read(&polar, &term);
     if (polar.sense != cases[n].sense)
       fail_msg("%s, '%s'", cases[n].name, cases[n].more);
+  }
+}
+
+/* A standard name outside of CF says no sense. */
+static void standard_names_have_a_sense(void **state)
+{
+  static const struct {
+    const char *standard;
+    int sense;
+  } cases[] = {{"wind_to_direction", 1},
+               {"wind_from_direction", -1},
+               {"sea_water_velocity_from_direction", -1},
+               {"direction_of_sea_ice_velocity", 1},
+               {"wind_direction", -1},
+               {"dominant_wave_direction", -1}};
+  (void)state;
+  for (size_t n = 0; n < sizeof cases / sizeof *cases; ++n) {
+    const fg__term term = {.name = n < 4 ? "wdir" : "dp",
+                           .standard_name = cases[n].standard,
+                           .long_name = n < 4 ? "wind direction" : NULL};
+    fg__polar polar;
+    assert_true(fg__direction_read(&polar, &term));
+    if (polar.sense != cases[n].sense)
+      fail_msg("%s", cases[n].standard);
   }
 }
 
@@ -223,6 +260,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_have_a_sense),
+      cmocka_unit_test(standard_names_have_a_sense),
       cmocka_unit_test(comments_name_conventions),
       cmocka_unit_test(opposite_conventions_are_found),
       cmocka_unit_test(directions_are_known_by_names_and_units),

@@ -281,5 +281,6 @@ fg_status fg__table_open(fg__dataset *dataset, fg_context *context,
     status = fg__table_find_names(&s->table, source);
   if (status == FG_STATUS_OK)
     status = read_rows(s);
+  dataset->lost_names = s->table.has_places && !s->table.named;
   return status == FG_STATUS_OK ? add_columns(dataset, s) : status;
 }

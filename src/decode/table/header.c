@@ -246,6 +246,25 @@ static fg_status read_line_of_names(fg__table *table, const fg__table_line *line
   return status;
 }
 
+/* Whether a line has words for two coordinates: names, however they are parted. */
+static bool names_places(const fg__table_line *line)
+{
+  bool has[FG__COLUMN_LATITUDE + 1] = {false};
+  int found = 0;
+  for (size_t at = 0, size; at < line->size; at += size + 1) {
+    char word[FG__TABLE_NAME];
+    for (size = 0; at + size < line->size &&
+                   (isalnum((unsigned char)line->text[at + size]) ||
+                    line->text[at + size] == '_');)
+      ++size;
+    copy_text(word, line->text + at, size);
+    for (int use = 0; word[0] && use <= FG__COLUMN_LATITUDE; ++use)
+      if (!has[use] && fg__column_fits(word, (fg__column_use)use) > 0)
+        found += has[use] = true;
+  }
+  return found >= 2;
+}
+
 fg_status fg__table_find_names(fg__table *table, const fg__source *source)
 {
   fg__table_cursor cursor = fg__table_begin(source);
@@ -266,6 +285,7 @@ fg_status fg__table_find_names(fg__table *table, const fg__source *source)
   while (cursor.at < table->data.at && fg__table_next(&next, &cursor)) {
     if (fg__table_is_blank(&next) || next.size > FG__TABLE_LINE)
       continue;
+    table->has_places = table->has_places || names_places(&next);
     if (lines == LOOKED_AT)
       memmove(line, line + 1, (size_t)--lines * sizeof *line);
     line[lines++] = next;

@@ -84,6 +84,7 @@ typedef struct fg__table {
   fg__table_style style;
   fg__table_kind kind;
   bool named; /* columns have names of the file's; else their numbers from 1 */
+  bool has_places; /* a line before the data has words for two coordinates */
   int columns;
   fg__table_column *column; /* [columns] */
 } fg__table;

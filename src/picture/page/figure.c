@@ -137,8 +137,9 @@ static fg_status plan_speeds(fg__figure *out, fg_context *context,
       fg__texture_beyond(plan->speeds_beyond,
                          fg_texture_contents(out->given[n].background), range);
   }
-  plan->color_key = !options->no_keys &&
-                    (behind || (has_speeds && !out->palette.uniform && !options->no_arrows));
+  plan->color_key =
+      !options->no_keys &&
+      (behind || (has_speeds && !out->palette.uniform && !options->no_arrows));
   fg__axis_of_numbers(&plan->speed, range[0], range[1], range[1] - range[0],
                       behind ? "speed" : "mean speed", units);
   fg__caption_label_speeds(&plan->speed, options->label, units);

@@ -195,8 +195,7 @@ static fg_status spread(cairo_surface_t *surface, fg_context *context,
   return FG_STATUS_OK;
 }
 
-static fg_status make_image(cairo_surface_t **out, fg_context *context,
-                            const coloring *c)
+static fg_status make_image(cairo_surface_t **out, fg_context *context, const coloring *c)
 {
   const int *size = c->texture->size;
   cairo_surface_t *surface =

@@ -103,6 +103,18 @@ static const situation SITUATIONS[] = {
          "x,y,u,v\nmm,mm,m/s,m/s\n1.5,10,11.5,-0.25\n2.5,10,12.5,-0.25\n"
          "3.5,10,13.5,-0.25\n1.5,20,21.5,-0.25\n2.5,20,22.5,-0.25\n3.5,20,23.5,-0.25\n",
      .field = SMALL},
+    {.what = "names that do not fit the columns are not left out",
+     .text = "# u,v,x,y\n1 2 10 20\n1 2 11 20\n1 2 10 21\n1 2 11 21\n",
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "no vectors found among its 4 variables: 1, 2, 3, 4"},
+    {.what = "the same, and numbers of columns",
+     .options = {.vars = "3,4,1,2"},
+     .field = " 2 x 2\n|x = 10 11\n|y = 20 21\n|u = 1 1 1 1\n"},
+    {.what = "names far above the data",
+     .text = "# lat lon u v\n#\n# a\n# b\n# c\n# d\n# e\n# f\n# g\n# h\n# i\n"
+             "20 10 1 2\n20 11 1 2\n21 10 1 2\n21 11 1 2\n",
+     .status = FG_STATUS_UNSUPPORTED,
+     .refused = "no vectors found among its 4 variables: 1, 2, 3, 4"},
     {.what = "a radar's table in LLUV, whose header names types of columns",
      .text = "%TableType: LLUV TOT4\n%TableColumns: 6\n"
              "%TableColumnTypes: LOND LATD VELU VELV VFLG UQAL\n%TableStart:\n"
