@@ -165,7 +165,7 @@ struct fg__dataset {
   double *time; /* those that the opening chose one of; NULL: not known */
   int times;    /* 0: there was no choice */
   bool has_blocks;
-  bool lost_names;        /* a header names places, and its names do not fit the columns */
+  bool lost_names; /* a header names places, and its names do not fit the columns */
   bool takes_all_samples; /* other dimensions than time and level are the caller's */
   fg__missing_numbers missing;
   const struct fg__projector *projector; /* NULL: projections are not known */

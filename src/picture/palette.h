@@ -13,7 +13,8 @@ enum { FG__PALETTE_SAMPLES = 65 };
 typedef struct fg__palette {
   fg__color sample[FG__PALETTE_SAMPLES];
   bool uniform; /* one colour: nothing for a key to explain */
-  int bands;    /* of equal width, from the colour at one end to that at the other; 0: none */
+  int bands; /* of equal width, from the colour at one end to that at the other; 0: none
+              */
 } fg__palette;
 
 /* Finds a colour map by name (NULL: the default), or makes one of "#rrggbb". ARGUMENT. */

@@ -116,7 +116,8 @@ static fg_status choose(fg__vector_choice *c, fg_context *context,
 }
 
 /* Whether the choice holds for a question. Decoders that open but one time keep the
- * context. Where a table's rows have times and levels, each time has levels of its own. */
+ * context. Where a table's rows have times and levels, each time has levels of its own.
+ */
 static bool holds(const fg__vector_choice *c, const fg_context *context,
                   const fg__format *format, int time)
 {

@@ -253,9 +253,9 @@ static bool names_places(const fg__table_line *line)
   int found = 0;
   for (size_t at = 0, size; at < line->size; at += size + 1) {
     char word[FG__TABLE_NAME];
-    for (size = 0; at + size < line->size &&
-                   (isalnum((unsigned char)line->text[at + size]) ||
-                    line->text[at + size] == '_');)
+    for (size = 0;
+         at + size < line->size &&
+         (isalnum((unsigned char)line->text[at + size]) || line->text[at + size] == '_');)
       ++size;
     copy_text(word, line->text + at, size);
     for (int use = 0; word[0] && use <= FG__COLUMN_LATITUDE; ++use)

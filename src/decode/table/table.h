@@ -83,7 +83,7 @@ typedef struct fg__table {
   fg__table_cursor data; /* the first line of data is next */
   fg__table_style style;
   fg__table_kind kind;
-  bool named; /* columns have names of the file's; else their numbers from 1 */
+  bool named;      /* columns have names of the file's; else their numbers from 1 */
   bool has_places; /* a line before the data has words for two coordinates */
   int columns;
   fg__table_column *column; /* [columns] */

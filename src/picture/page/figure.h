@@ -25,7 +25,7 @@ typedef struct fg__figure {
   char (*label)[FG__PAGE_TEXT_BYTES];
   fg__palette palette; /* of the speeds; of a background that shows them, in bands */
   fg__palette arrows;  /* of the arrows' speeds */
-  fg__plane plane; /* of fields on the Earth */
+  fg__plane plane;     /* of fields on the Earth */
   fg__graticule graticule;
   double low[2], high[2]; /* what the frames show, in the fields' coordinates */
   fg__typical_icon typical;
